@@ -1,0 +1,112 @@
+//! The coupling matrix W = {w_ij}: w_ij > 0 when j drives i, every row sums to zero.
+//!
+//! - laplacian: w_ij = a_ij, w_ii = −Σ_j a_ij
+//! - normalized: w_ij = a_ij / k_i, w_ii = −1, with k_i = Σ_j a_ij
+//!
+//! A normalized matrix of a symmetric network is similar to a symmetric one, and so has a real
+//! spectrum: W = D^{-1/2} S D^{1/2} with S = D^{-1/2} A D^{-1/2} − I and D = diag(k_i). If u is an
+//! eigenvector of S, v = D^{-1/2} u is one of W.
+
+use crate::{Network, SparseMatrix};
+
+/// How the coupling matrix follows from the adjacency matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normalization {
+    /// w_ij = a_ij.
+    Laplacian,
+    /// w_ij = a_ij / k_i: every node receives the same total coupling.
+    Normalized,
+}
+
+/// The coupling matrix W of a symmetric network, with its symmetric form.
+#[derive(Clone, Debug)]
+pub struct CouplingMatrix {
+    matrix: SparseMatrix,
+    symmetric: SparseMatrix,
+    scale: Vec<f64>,
+}
+
+impl CouplingMatrix {
+    /// Builds W from a network. An isolated node receives no coupling: its row is zero.
+    pub fn new(network: &Network, normalization: Normalization) -> Self {
+        let strengths = network.strengths();
+        let scale: Vec<f64> = match normalization {
+            Normalization::Laplacian => vec![1.0; network.n_nodes()],
+            Normalization::Normalized => strengths
+                .iter()
+                .map(|&k| if k > 0.0 { 1.0 / k.sqrt() } else { 1.0 })
+                .collect(),
+        };
+        // w_ij = scale_i² a_ij and s_ij = scale_i a_ij scale_j share the diagonal −scale_i² k_i.
+        let with = |off_diagonal: &dyn Fn(usize, usize, f64) -> f64| {
+            with_zero_row_sums(network.adjacency(), off_diagonal, |i| match normalization {
+                Normalization::Laplacian => -strengths[i],
+                Normalization::Normalized => {
+                    if strengths[i] > 0.0 {
+                        -1.0
+                    } else {
+                        0.0
+                    }
+                }
+            })
+        };
+        let matrix = with(&|i, _, a| match normalization {
+            Normalization::Laplacian => a,
+            Normalization::Normalized => a / strengths[i],
+        });
+        let symmetric = with(&|i, j, a| scale[i] * scale[j] * a);
+        Self { matrix, symmetric, scale }
+    }
+
+    /// Number of nodes N.
+    pub fn n_nodes(&self) -> usize {
+        self.scale.len()
+    }
+
+    /// W itself, shape (N, N), every diagonal entry stored.
+    pub fn matrix(&self) -> &SparseMatrix {
+        &self.matrix
+    }
+
+    /// The symmetric matrix S similar to W, shape (N, N), every diagonal entry stored: same
+    /// eigenvalues, and v = `scale` · u (elementwise) is an eigenvector of W when u is one of S.
+    pub fn symmetric(&self) -> &SparseMatrix {
+        &self.symmetric
+    }
+
+    /// D^{-1/2}, length N: what takes eigenvectors of [`Self::symmetric`] to those of W. All ones
+    /// for a laplacian.
+    pub fn scale(&self) -> &[f64] {
+        &self.scale
+    }
+}
+
+/// The adjacency matrix with its weights mapped and a stored diagonal.
+fn with_zero_row_sums(
+    adjacency: &SparseMatrix,
+    off_diagonal: &dyn Fn(usize, usize, f64) -> f64,
+    diagonal: impl Fn(usize) -> f64,
+) -> SparseMatrix {
+    let n_nodes = adjacency.rows();
+    let mut row_starts = Vec::with_capacity(n_nodes + 1);
+    let mut columns = Vec::with_capacity(adjacency.nnz() + n_nodes);
+    let mut values = Vec::with_capacity(adjacency.nnz() + n_nodes);
+    row_starts.push(0);
+    for (i, row) in adjacency.outer_iterator().enumerate() {
+        #[expect(clippy::cast_possible_truncation, reason = "node numbers fit in u32")]
+        let own_column = i as u32;
+        let (below, above): (Vec<_>, Vec<_>) = row.iter().partition(|&(j, _)| j < i);
+        for (j, &a) in below {
+            columns.push(j as u32);
+            values.push(off_diagonal(i, j, a));
+        }
+        columns.push(own_column);
+        values.push(diagonal(i));
+        for (j, &a) in above {
+            columns.push(j as u32);
+            values.push(off_diagonal(i, j, a));
+        }
+        row_starts.push(columns.len());
+    }
+    SparseMatrix::new((n_nodes, n_nodes), row_starts, columns, values)
+}

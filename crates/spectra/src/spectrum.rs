@@ -1,0 +1,32 @@
+//! The spectrum of W: eigenvalues descending, eigenvectors, residuals and eigenspaces.
+
+use std::ops::Range;
+
+/// How a spectrum was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// All modes by a dense symmetric solver.
+    Dense,
+    /// Leading modes by ARPACK's implicitly restarted Lanczos method.
+    Arpack,
+}
+
+/// Leading modes of a coupling matrix.
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    /// λ_1 ≥ λ_2 ≥ …, those computed.
+    pub eigenvalues: Vec<f64>,
+    /// v_1, v_2, …, one vector of length N a mode, unit 2-norm in node space; within an eigenspace
+    /// orthonormal in node space.
+    pub eigenvectors: Vec<Vec<f64>>,
+    /// ‖W v_k − λ_k v_k‖ of each mode.
+    pub residuals: Vec<f64>,
+    /// Runs of equal eigenvalues, as ranges of mode indices (0-based) that cover all modes in order.
+    pub eigenspaces: Vec<Range<usize>>,
+    /// Eigenvalues closer than this are one eigenspace.
+    pub tolerance: f64,
+    /// Which solver found them.
+    pub solver: Solver,
+    /// Matrix–vector products spent (0 for the dense solver).
+    pub products: usize,
+}
