@@ -1,1 +1,41 @@
-//! p
+//! Oscillators, integrators, network simulation and Lyapunov exponents for
+//! `dx_i/dt = F(x_i) + ε Σ_j w_ij H(x_j)`.
+//!
+//! Each oscillator's equations are written once, over [`Scalar`], and serve single values, [`Lanes`]
+//! of values side by side and [`Dual`] numbers, whose tangent part is an exact Jacobian–vector
+//! product. Nothing here knows where a network comes from or what its eigenvalues are.
+//!
+//! Arithmetic is the same to the last bit on any x86-64: no fused multiply-add, a fixed order of
+//! summation, and logarithms from a library that is itself portable.
+
+mod coupling;
+mod error;
+mod integrators;
+pub mod lyapunov;
+mod network;
+mod observables;
+mod oscillator;
+mod oscillators;
+mod random;
+mod scalar;
+mod statistics;
+
+pub use coupling::Coupling;
+pub use error::DynamicsError;
+pub use integrators::{Adaptive, AdaptiveOrder, Method};
+pub use network::{Outcome, Replica, Run, Schedule, Simulation};
+pub use observables::{Errors, Observables};
+pub use oscillator::Oscillator;
+pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
+pub use scalar::{Dual, Lanes, Scalar};
+pub use statistics::{BLOCKS, Estimate};
+
+/// Sparse matrix in compressed-row form with 32-bit column indices.
+pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
+
+/// Called with the number of steps done since the last call, from any thread.
+pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
+
+/// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
+/// below 10³, in the units of their equations.
+pub const ESCAPE_RADIUS: f64 = 1e6;

@@ -1,0 +1,82 @@
+//! What can go wrong in a simulation, beyond an orbit that escapes.
+
+use thiserror::Error;
+
+use crate::statistics::BLOCKS;
+
+/// Why a simulation or an exponent could not be computed.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum DynamicsError {
+    /// A step that is zero, negative or not finite.
+    #[error("the step is {step}; it must be finite and above zero")]
+    BadStep {
+        /// Step in model time units.
+        step: f64,
+    },
+    /// A span of time that is negative or not finite.
+    #[error("the {name} is {value}; it must be finite and not negative")]
+    BadTime {
+        /// Which span.
+        name: &'static str,
+        /// Its length in model time units.
+        value: f64,
+    },
+    /// Fewer samples than blocks.
+    #[error(
+        "the average gives {samples} samples, fewer than the {needed} its standard error needs"
+    )]
+    TooFewSamples {
+        /// Samples in the averaging time.
+        samples: u64,
+        /// The least number.
+        needed: u64,
+    },
+    /// An isolated orbit left every bounded region.
+    #[error("the isolated orbit escapes at time {time}")]
+    Escaped {
+        /// Model time at which it was seen.
+        time: f64,
+    },
+    /// The adaptive integrator gave up.
+    #[error("the adaptive integrator stopped at time {time}: {reason}")]
+    Adaptive {
+        /// Model time at the start of the stretch in which it stopped.
+        time: f64,
+        /// What the integrator says.
+        reason: String,
+    },
+}
+
+/// Checks a step, named times and the number of samples they give, in model time units.
+pub(crate) fn check_times(
+    step: f64,
+    times: &[(&'static str, f64)],
+    samples: f64,
+) -> Result<(), DynamicsError> {
+    if !(step.is_finite() && step > 0.0) {
+        return Err(DynamicsError::BadStep { step });
+    }
+    for &(name, value) in times {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(DynamicsError::BadTime { name, value });
+        }
+    }
+    let (samples, needed) = (whole(samples), BLOCKS as u64);
+    if samples < needed {
+        return Err(DynamicsError::TooFewSamples { samples, needed });
+    }
+    Ok(())
+}
+
+/// A count of steps or samples from a ratio of times: rounded, and saturating.
+pub(crate) fn whole(ratio: f64) -> u64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "saturates at both ends, and the ratio of two checked times is not negative"
+    )]
+    {
+        ratio.round() as u64
+    }
+}

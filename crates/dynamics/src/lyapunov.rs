@@ -1,0 +1,326 @@
+//! Lyapunov exponents: the largest of the master equation, and the whole spectrum of one oscillator.
+//!
+//! The master equation `δẏ = [DF(s) − σ DH] δy` (Fan, Wang & Wang 2023, Eq. (4)) is integrated with
+//! its orbit `ṡ = F(s)` as one system on dual numbers: s is the value, δy the tangent. At σ = 0 its
+//! exponent is the largest Lyapunov exponent of the isolated oscillator.
+//!
+//! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
+//! the logarithms of their growth averaged.
+
+use rayon::prelude::*;
+
+use crate::error::{check_times, whole};
+use crate::integrators::rk4;
+use crate::oscillators::with_oscillator;
+use crate::random::initial_states;
+use crate::statistics::BLOCKS;
+use crate::{
+    Coupling, Dual, DynamicsError, ESCAPE_RADIUS, Estimate, Lanes, Model, Oscillator, Progress,
+};
+
+/// The most tangents advanced together.
+const MAX_LANES: usize = 8;
+
+/// Times of an average over an orbit, in model time units, with a fixed RK4 step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Times {
+    /// Step of the integrator.
+    pub step: f64,
+    /// Time in which the orbit settles and the tangent turns into its direction of fastest growth.
+    pub transient: f64,
+    /// Time of the average, rounded to [`BLOCKS`] blocks of whole intervals.
+    pub average: f64,
+    /// Interval between renormalisations.
+    pub renormalise: f64,
+}
+
+/// One exponent to compute: σ of the master equation, and the seed of the orbit's initial state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangent {
+    /// Generic coupling strength σ = −ελ.
+    pub sigma: f64,
+    /// Seed of s(0).
+    pub seed: u64,
+}
+
+/// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
+/// time, with standard errors over [`BLOCKS`] blocks.
+///
+/// Runs on the current rayon pool; results come in the order of `tangents` and do not depend on how
+/// these are grouped into lanes or threads.
+///
+/// # Errors
+/// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`], [`DynamicsError::TooFewSamples`] for times
+/// that make no sense; [`DynamicsError::Escaped`] when an orbit leaves the ball of radius
+/// [`ESCAPE_RADIUS`].
+pub fn master_exponents(
+    model: Model,
+    coupling: Coupling,
+    times: &Times,
+    tangents: &[Tangent],
+    progress: Progress<'_>,
+) -> Result<Vec<Estimate>, DynamicsError> {
+    let plan = Plan::new(times)?;
+    with_oscillator!(model, oscillator => {
+        let batches = tangents
+            .par_chunks(MAX_LANES)
+            .map(|batch| match batch.len() {
+                1 => master_batch::<_, _, 1>(oscillator, coupling, &plan, batch, progress),
+                _ => master_batch::<_, _, MAX_LANES>(oscillator, coupling, &plan, batch, progress),
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(batches.into_iter().flatten().collect())
+    })
+}
+
+/// All Lyapunov exponents of the isolated oscillator, descending, per unit of model time.
+///
+/// `D` tangents are carried as lanes of one dual system and re-orthogonalised at every interval (QR
+/// by modified Gram–Schmidt).
+///
+/// # Errors
+/// As [`master_exponents`].
+pub fn spectrum(model: Model, times: &Times, seed: u64) -> Result<Vec<Estimate>, DynamicsError> {
+    let plan = Plan::new(times)?;
+    with_oscillator!(model, oscillator => spectrum_of(oscillator, &plan, seed))
+}
+
+impl Times {
+    /// Steps of one tangent from its start to its end.
+    pub fn steps(&self) -> u64 {
+        whole((self.transient + self.average) / self.step)
+    }
+}
+
+/// Times in whole steps.
+struct Plan {
+    step: f64,
+    steps_per_interval: u64,
+    transient_intervals: u64,
+    intervals_per_block: u64,
+}
+
+impl Plan {
+    fn new(times: &Times) -> Result<Self, DynamicsError> {
+        let steps_per_interval = (times.renormalise / times.step).round().max(1.0);
+        let interval = steps_per_interval * times.step;
+        let named = [
+            ("transient", times.transient),
+            ("average", times.average),
+            ("renormalise", times.renormalise),
+        ];
+        check_times(times.step, &named, times.average / interval)?;
+        Ok(Self {
+            step: times.step,
+            steps_per_interval: whole(steps_per_interval),
+            transient_intervals: whole(times.transient / interval),
+            intervals_per_block: whole(times.average / interval / BLOCKS as f64),
+        })
+    }
+
+    fn interval(&self) -> f64 {
+        self.steps_per_interval as f64 * self.step
+    }
+
+    /// Runs the dual system through the transient and all blocks, handing the tangents of every
+    /// interval to `renormalise`, which gives the logarithms of their growth; returns block means of
+    /// the exponents, [block][lane].
+    fn block_means<const D: usize, const L: usize>(
+        &self,
+        flow: impl Fn([Dual<Lanes<L>>; D]) -> [Dual<Lanes<L>>; D],
+        mut state: [Dual<Lanes<L>>; D],
+        renormalise: impl Fn(&mut [Dual<Lanes<L>>; D]) -> [f64; L],
+        progress: impl Fn(u64),
+    ) -> Result<Vec<[f64; L]>, DynamicsError> {
+        let mut intervals = 0u64;
+        let mut grow = |count: u64| {
+            let mut growth = [0.0; L];
+            for _ in 0..count {
+                for _ in 0..self.steps_per_interval {
+                    state = rk4::step(&flow, state, self.step);
+                }
+                intervals += 1;
+                let bounded = |x: &f64| x.abs() < ESCAPE_RADIUS;
+                if !state.iter().all(|component| component.value.0.iter().all(bounded)) {
+                    let time = intervals as f64 * self.interval();
+                    return Err(DynamicsError::Escaped { time });
+                }
+                for (sum, log) in growth.iter_mut().zip(renormalise(&mut state)) {
+                    *sum += log;
+                }
+                progress(self.steps_per_interval);
+            }
+            Ok(growth.map(|sum| sum / (count as f64 * self.interval())))
+        };
+        if self.transient_intervals > 0 {
+            grow(self.transient_intervals)?;
+        }
+        (0..BLOCKS).map(|_| grow(self.intervals_per_block)).collect()
+    }
+}
+
+fn master_batch<O: Oscillator<D>, const D: usize, const L: usize>(
+    oscillator: O,
+    coupling: Coupling,
+    plan: &Plan,
+    batch: &[Tangent],
+    progress: Progress<'_>,
+) -> Result<Vec<Estimate>, DynamicsError> {
+    // Lanes beyond the batch repeat its last tangent and are never read.
+    let tangent = |lane: usize| batch[lane.min(batch.len() - 1)];
+    let sigma = Lanes(std::array::from_fn(|lane| tangent(lane).sigma));
+    let flow = |state: [Dual<Lanes<L>>; D]| {
+        let mut slope = oscillator.flow(state);
+        for (c, slope) in slope.iter_mut().enumerate() {
+            if c == coupling.to {
+                slope.tangent = slope.tangent - sigma * state[coupling.from].tangent;
+            }
+        }
+        slope
+    };
+    let orbits: [[f64; D]; L] =
+        std::array::from_fn(|lane| initial_states::<O, D>(1, tangent(lane).seed)[0]);
+    let state = std::array::from_fn(|c| Dual {
+        value: Lanes(std::array::from_fn(|lane| orbits[lane][c])),
+        tangent: Lanes([1.0; L]),
+    });
+    let lanes = batch.len() as u64;
+    let blocks = plan.block_means(flow, state, normalise, |steps| progress(steps * lanes))?;
+    Ok(estimates(&blocks, batch.len()))
+}
+
+fn spectrum_of<O: Oscillator<D>, const D: usize>(
+    oscillator: O,
+    plan: &Plan,
+    seed: u64,
+) -> Result<Vec<Estimate>, DynamicsError> {
+    let start = initial_states::<O, D>(1, seed)[0];
+    let state: [Dual<Lanes<D>>; D] = std::array::from_fn(|c| Dual {
+        value: Lanes([start[c]; D]),
+        tangent: Lanes(std::array::from_fn(|lane| f64::from(u8::from(lane == c)))),
+    });
+    let flow = |state| oscillator.flow(state);
+    let blocks = plan.block_means(flow, state, orthonormalise, |_| ())?;
+    Ok(estimates(&blocks, D))
+}
+
+/// Scales every lane's tangent to unit length; gives the logarithms of the lengths.
+fn normalise<const D: usize, const L: usize>(state: &mut [Dual<Lanes<L>>; D]) -> [f64; L] {
+    std::array::from_fn(|lane| scale_to_unit(state, lane))
+}
+
+/// Makes the lanes' tangents orthonormal in their order; gives the logarithms of the lengths that
+/// remain, the diagonal of R.
+fn orthonormalise<const D: usize, const L: usize>(state: &mut [Dual<Lanes<L>>; D]) -> [f64; L] {
+    std::array::from_fn(|lane| {
+        for before in 0..lane {
+            let overlap: f64 = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[before]).sum();
+            for x in state.iter_mut() {
+                x.tangent.0[lane] -= overlap * x.tangent.0[before];
+            }
+        }
+        scale_to_unit(state, lane)
+    })
+}
+
+fn scale_to_unit<const D: usize, const L: usize>(
+    state: &mut [Dual<Lanes<L>>; D],
+    lane: usize,
+) -> f64 {
+    let length = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[lane]).sum::<f64>().sqrt();
+    for x in state.iter_mut() {
+        x.tangent.0[lane] /= length;
+    }
+    // The platform's own logarithm may round differently on another machine.
+    libm::log(length)
+}
+
+fn estimates<const L: usize>(blocks: &[[f64; L]], lanes: usize) -> Vec<Estimate> {
+    let of_lane = |lane: usize| blocks.iter().map(|block| block[lane]).collect::<Vec<_>>();
+    (0..lanes).map(|lane| Estimate::from_independent(&of_lane(lane))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Lorenz, Rossler};
+
+    const TIMES: Times = Times { step: 0.01, transient: 100.0, average: 5000.0, renormalise: 0.5 };
+    const QUIET: Progress<'static> = &|_| ();
+
+    fn within(estimate: Estimate, expected: f64, slack: f64) {
+        let allowed = 4.0 * estimate.standard_error + slack;
+        assert!(
+            (estimate.mean - expected).abs() < allowed,
+            "{estimate:?} against {expected} ± {allowed}"
+        );
+    }
+
+    #[test]
+    fn a_component_that_decays_by_itself_decays_faster_by_sigma() {
+        // z into z of Lorenz at a stable fixed point: r < 1 makes the origin attract, where the
+        // Jacobian is triangular and the z direction decays at b + σ, apart from x and y.
+        let model = Model::Lorenz(Lorenz { alpha: 1.0, r: 0.0, b: 0.5 });
+        let z = Coupling { from: 2, to: 2 };
+        let tangents = [0.0, 0.25, 2.0].map(|sigma| Tangent { sigma, seed: 1 });
+        let exponents = master_exponents(model, z, &TIMES, &tangents, QUIET).unwrap();
+        // At r = 0, α = 1 the x–y block has the double rate −1; the slowest rate wins.
+        for (exponent, expected) in exponents.iter().zip([-0.5, -0.75, -1.0]) {
+            assert!((exponent.mean - expected).abs() < 2e-3, "{exponent:?} against {expected}");
+        }
+    }
+
+    #[test]
+    fn lyapunov_exponents_of_lorenz_sum_to_its_divergence() {
+        let lorenz = Lorenz::default();
+        let exponents = spectrum(Model::Lorenz(lorenz), &TIMES, 1).unwrap();
+        let sum: f64 = exponents.iter().map(|e| e.mean).sum();
+        let divergence = -(lorenz.alpha + 1.0 + lorenz.b);
+        assert!((sum - divergence).abs() < 1e-3, "{sum} against {divergence}");
+        within(exponents[1], 0.0, 1e-3);
+    }
+
+    #[test]
+    fn the_largest_exponent_agrees_between_one_tangent_and_qr() {
+        for model in [Model::Lorenz(Lorenz::default()), Model::Rossler(Rossler::default())] {
+            let coupling = Coupling { from: 0, to: 0 };
+            let tangent = [Tangent { sigma: 0.0, seed: 7 }];
+            let one = master_exponents(model, coupling, &TIMES, &tangent, QUIET).unwrap()[0];
+            let qr = spectrum(model, &TIMES, 8).unwrap()[0];
+            within(one, qr.mean, 4.0 * qr.standard_error);
+        }
+    }
+
+    #[test]
+    fn exponents_have_the_same_bits_in_any_lane() {
+        let model = Model::Lorenz(Lorenz::default());
+        let coupling = Coupling { from: 0, to: 1 };
+        let times = Times { average: 100.0, ..TIMES };
+        let tangents: Vec<_> =
+            (0..11u32).map(|k| Tangent { sigma: f64::from(k), seed: u64::from(k % 3) }).collect();
+        let together = master_exponents(model, coupling, &times, &tangents, QUIET).unwrap();
+        let alone: Vec<_> = tangents
+            .iter()
+            .map(|&t| master_exponents(model, coupling, &times, &[t], QUIET).unwrap()[0])
+            .collect();
+        assert_eq!(together, alone);
+    }
+
+    #[test]
+    fn an_orbit_that_escapes_is_an_error_with_its_time() {
+        // With c < 0 the Rössler oscillator has no bounded attractor.
+        let model = Model::Rossler(Rossler { a: 0.5, b: 0.2, c: -9.0 });
+        let error = spectrum(model, &TIMES, 1).unwrap_err();
+        assert!(matches!(error, DynamicsError::Escaped { time } if time > 0.0), "{error:?}");
+    }
+
+    #[test]
+    fn times_that_make_no_sense_are_refused() {
+        let refused = |times| spectrum(Model::Lorenz(Lorenz::default()), &times, 1).unwrap_err();
+        assert_eq!(refused(Times { step: -0.01, ..TIMES }), DynamicsError::BadStep { step: -0.01 });
+        assert_eq!(
+            refused(Times { average: 0.0, ..TIMES }),
+            DynamicsError::TooFewSamples { samples: 0, needed: 20 }
+        );
+    }
+}

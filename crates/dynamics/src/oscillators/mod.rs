@@ -1,0 +1,112 @@
+//! The oscillators, one file each, and the list of them that experiment files choose from.
+
+mod hindmarsh_rose;
+mod lorenz;
+mod rossler;
+
+use serde::{Deserialize, Serialize};
+
+pub use hindmarsh_rose::HindmarshRose;
+pub use lorenz::Lorenz;
+pub use rossler::Rossler;
+
+use crate::Oscillator;
+
+/// Declares [`Model`]: one line here is all that a new oscillator needs beyond its own file.
+macro_rules! models {
+    ($($(#[$doc:meta])* $name:ident $tag:literal),* $(,)?) => {
+        /// Any of the oscillators, chosen at run time.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub enum Model {
+            $($(#[$doc])* #[serde(rename = $tag)] $name($name)),*
+        }
+
+        impl Model {
+            /// The oscillator's name in experiment files.
+            pub fn name(&self) -> &'static str {
+                match self { $(Self::$name(_) => $tag),* }
+            }
+
+            /// Names of its components, in order.
+            pub fn components(&self) -> &'static [&'static str] {
+                match self { $(Self::$name(_) => &<$name as Oscillator<_>>::COMPONENTS),* }
+            }
+
+            /// Every oscillator there is, with its default parameters.
+            pub fn all() -> Vec<Self> {
+                vec![$(Self::$name($name::default())),*]
+            }
+        }
+
+        /// Runs an expression with the concrete oscillator of a [`Model`] bound to a name.
+        macro_rules! with_oscillator {
+            ($model:expr, $oscillator:ident => $body:expr) => {
+                match $model { $($crate::oscillators::Model::$name($oscillator) => $body),* }
+            };
+        }
+        pub(crate) use with_oscillator;
+    };
+}
+
+models! {
+    /// [`Lorenz`].
+    Lorenz "lorenz",
+    /// [`HindmarshRose`].
+    HindmarshRose "hindmarsh_rose",
+    /// [`Rossler`].
+    Rossler "rossler",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Dual;
+
+    /// The tangent of the flow on dual numbers against central differences of the flow itself.
+    fn check_jacobian<const D: usize>(oscillator: impl Oscillator<D>, state: [f64; D]) {
+        for direction in 0..D {
+            let dual = oscillator.flow(std::array::from_fn(|c| Dual {
+                value: state[c],
+                tangent: f64::from(u8::from(c == direction)),
+            }));
+            let h = 1e-6;
+            let shifted = |by: f64| {
+                let mut moved = state;
+                moved[direction] += by;
+                oscillator.flow(moved)
+            };
+            let (above, below) = (shifted(h), shifted(-h));
+            for c in 0..D {
+                let difference = (above[c] - below[c]) / (2.0 * h);
+                assert!(
+                    (dual[c].tangent - difference).abs() < 1e-6 * (1.0 + difference.abs()),
+                    "∂F_{c}/∂x_{direction}: {} by dual numbers, {difference} by differences",
+                    dual[c].tangent
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn dual_numbers_give_every_jacobian() {
+        check_jacobian(Lorenz::default(), [3.0, -5.0, 21.0]);
+        check_jacobian(HindmarshRose::default(), [-1.1, -4.0, 3.1]);
+        check_jacobian(Rossler::default(), [4.0, -6.0, 2.5]);
+    }
+
+    #[test]
+    fn fixed_points_do_not_move() {
+        // Lorenz: x = y = ±√(b(r − 1)), z = r − 1.
+        let lorenz = Lorenz { alpha: 10.0, r: 33.0, b: 2.0 };
+        assert_eq!(lorenz.flow([8.0, 8.0, 32.0]), [0.0; 3]);
+        // Rössler with a = b = 0.2, c = 5.7: z = (c − √(c² − 4ab)) / 2a, x = az, y = −z.
+        let rossler = Rossler { a: 0.2, b: 0.2, c: 5.7 };
+        let z = (5.7 - (5.7f64 * 5.7 - 0.16).sqrt()) / 0.4;
+        assert!(rossler.flow([0.2 * z, -z, z]).iter().all(|dx| dx.abs() < 1e-14));
+        // Hindmarsh–Rose with I chosen so that x = −1.6, y = 1 − 5x², z = 0 is a fixed point.
+        let (x, y) = (-1.6f64, 1.0 - 5.0 * 1.6 * 1.6);
+        let current = x.powi(3) - 3.0 * x * x - y;
+        let neuron = HindmarshRose { r: 0.006, s: 4.0, current };
+        assert!(neuron.flow([x, y, 0.0]).iter().all(|dx| dx.abs() < 1e-14));
+    }
+}
