@@ -1,5 +1,19 @@
-//! Master stability function Λ(σ), its stable set and the critical couplings.
+//! Master stability function Λ(σ), its stable set, and the critical couplings that follow from it.
+//!
+//! Λ(σ) is the largest Lyapunov exponent of `δẏ = [DF(s) − σ DH] δy`, ṡ = F(s). A mode of the network
+//! with eigenvalue λ at coupling ε has σ = −ελ and is damped where Λ(σ) < 0. Nothing here knows a
+//! graph.
+//!
+//! Source: L. M. Pecora & T. L. Carroll, PRL 80, 2109 (1998).
 
+mod critical;
+mod curve;
+mod error;
 mod stable_region;
+mod zeros;
 
+pub use critical::{CriticalCoupling, critical_couplings};
+pub use curve::{MasterStability, Node, Request, master_stability};
+pub use error::MsfError;
 pub use stable_region::{Interval, StableRegion};
+pub use zeros::{Refinement, Zero};
