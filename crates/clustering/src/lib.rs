@@ -1,1 +1,20 @@
-//! placeholder
+//! Which nodes synchronise, and when: the eigenvector distance δe_ij, the clusters it predicts, the
+//! cascade of predicted states over the coupling strength ε, and the agreement of two partitions.
+//!
+//! Integrates nothing and reads no files: it takes a [`spectra::Spectrum`] and a
+//! [`msf::StableRegion`]. Modes and nodes count from 0 here; mode 0, of eigenvalue λ_1 = 0, is the
+//! synchronous motion itself and never transverse.
+
+mod agreement;
+mod assignment;
+mod cascade;
+mod disjoint_sets;
+mod distance;
+mod error;
+mod partition;
+
+pub use agreement::{MaximumOverlap, adjusted_rand_index, maximum_overlap};
+pub use cascade::{ClusterRule, State, cascade, merge_equal_clusters};
+pub use distance::{EigenvectorDistance, mean_over_bases};
+pub use error::ClusteringError;
+pub use partition::Partition;

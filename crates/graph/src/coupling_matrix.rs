@@ -30,32 +30,23 @@ impl CouplingMatrix {
     /// Builds W from a network. An isolated node receives no coupling: its row is zero.
     pub fn new(network: &Network, normalization: Normalization) -> Self {
         let strengths = network.strengths();
-        let scale: Vec<f64> = match normalization {
-            Normalization::Laplacian => vec![1.0; network.n_nodes()],
-            Normalization::Normalized => strengths
-                .iter()
-                .map(|&k| if k > 0.0 { 1.0 / k.sqrt() } else { 1.0 })
-                .collect(),
-        };
-        // w_ij = scale_i² a_ij and s_ij = scale_i a_ij scale_j share the diagonal −scale_i² k_i.
-        let with = |off_diagonal: &dyn Fn(usize, usize, f64) -> f64| {
-            with_zero_row_sums(network.adjacency(), off_diagonal, |i| match normalization {
-                Normalization::Laplacian => -strengths[i],
-                Normalization::Normalized => {
-                    if strengths[i] > 0.0 {
-                        -1.0
-                    } else {
-                        0.0
-                    }
-                }
-            })
-        };
-        let matrix = with(&|i, _, a| match normalization {
-            Normalization::Laplacian => a,
-            Normalization::Normalized => a / strengths[i],
-        });
-        let symmetric = with(&|i, j, a| scale[i] * scale[j] * a);
-        Self { matrix, symmetric, scale }
+        let adjacency = network.adjacency();
+        match normalization {
+            Normalization::Laplacian => {
+                let matrix = with_diagonal(adjacency, |_, _, a| a, |i| -strengths[i]);
+                Self { symmetric: matrix.clone(), matrix, scale: vec![1.0; network.n_nodes()] }
+            }
+            Normalization::Normalized => {
+                let is_linked = |i: usize| strengths[i] > 0.0;
+                let scale_of = |&k: &f64| if k > 0.0 { 1.0 / k.sqrt() } else { 1.0 };
+                let scale: Vec<f64> = strengths.iter().map(scale_of).collect();
+                let diagonal = |i| if is_linked(i) { -1.0 } else { 0.0 };
+                let matrix = with_diagonal(adjacency, |i, _, a| a / strengths[i], diagonal);
+                let symmetric =
+                    with_diagonal(adjacency, |i, j, a| scale[i] * scale[j] * a, diagonal);
+                Self { matrix, symmetric, scale }
+            }
+        }
     }
 
     /// Number of nodes N.
@@ -81,32 +72,24 @@ impl CouplingMatrix {
     }
 }
 
-/// The adjacency matrix with its weights mapped and a stored diagonal.
-fn with_zero_row_sums(
+/// The adjacency matrix with its weights mapped and a stored diagonal, columns ascending.
+fn with_diagonal(
     adjacency: &SparseMatrix,
-    off_diagonal: &dyn Fn(usize, usize, f64) -> f64,
+    off_diagonal: impl Fn(usize, usize, f64) -> f64,
     diagonal: impl Fn(usize) -> f64,
 ) -> SparseMatrix {
     let n_nodes = adjacency.rows();
     let mut row_starts = Vec::with_capacity(n_nodes + 1);
-    let mut columns = Vec::with_capacity(adjacency.nnz() + n_nodes);
-    let mut values = Vec::with_capacity(adjacency.nnz() + n_nodes);
+    let mut entries: Vec<(u32, f64)> = Vec::with_capacity(adjacency.nnz() + n_nodes);
     row_starts.push(0);
     for (i, row) in adjacency.outer_iterator().enumerate() {
-        #[expect(clippy::cast_possible_truncation, reason = "node numbers fit in u32")]
-        let own_column = i as u32;
-        let (below, above): (Vec<_>, Vec<_>) = row.iter().partition(|&(j, _)| j < i);
-        for (j, &a) in below {
-            columns.push(j as u32);
-            values.push(off_diagonal(i, j, a));
-        }
-        columns.push(own_column);
-        values.push(diagonal(i));
-        for (j, &a) in above {
-            columns.push(j as u32);
-            values.push(off_diagonal(i, j, a));
-        }
-        row_starts.push(columns.len());
+        let start = entries.len();
+        entries.push((u32::try_from(i).expect("a network's nodes fit in u32"), diagonal(i)));
+        let linked = row.indices().iter().zip(row.data());
+        entries.extend(linked.map(|(&j, &a)| (j, off_diagonal(i, j as usize, a))));
+        entries[start..].sort_unstable_by_key(|&(column, _)| column);
+        row_starts.push(entries.len());
     }
+    let (columns, values) = entries.into_iter().unzip();
     SparseMatrix::new((n_nodes, n_nodes), row_starts, columns, values)
 }

@@ -15,6 +15,12 @@ pub enum GraphError {
         /// Number of nodes found.
         n_nodes: usize,
     },
+    /// Two nodes of the same name.
+    #[error("two nodes are called `{label}`")]
+    DuplicateLabel {
+        /// Their label.
+        label: String,
+    },
     /// A link names a node that does not exist.
     #[error("a link names node {node}, but there are only {n_nodes} nodes")]
     NodeOutOfRange {
@@ -30,7 +36,7 @@ pub enum GraphError {
         node: String,
     },
     /// A weight that is zero, negative or not finite.
-    #[error("the link {from}–{to} has weight {weight}; weights must be finite and above zero")]
+    #[error("the link {from}–{to} has weight {weight}; expected a finite weight above zero")]
     BadWeight {
         /// Label of one end.
         from: String,

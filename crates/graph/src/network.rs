@@ -1,6 +1,6 @@
 //! A network: sparse adjacency a_ij ≥ 0 (the strength with which j drives i) and node labels.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 use sprs::TriMatI;
 
@@ -9,7 +9,7 @@ use crate::{GraphError, SparseMatrix};
 /// A weighted network without self-loops.
 ///
 /// `a_ij > 0` when node j drives node i. Undirected networks store both directions with the same
-/// weight. Nodes are numbered from 0 in the order of their labels.
+/// weight. Nodes are numbered from 0; node i bears the i-th label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     adjacency: SparseMatrix,
@@ -20,44 +20,27 @@ impl Network {
     /// An undirected network from its links `(i, j, weight)`, each given once.
     ///
     /// # Errors
-    /// [`GraphError::Empty`] without nodes; [`GraphError::NodeOutOfRange`], [`GraphError::SelfLoop`],
-    /// [`GraphError::BadWeight`] (zero, negative or not finite) and [`GraphError::DuplicateLink`] name
-    /// the link by the labels of its nodes.
+    /// [`GraphError::Empty`] without nodes, [`GraphError::TooManyNodes`] beyond 32-bit numbers,
+    /// [`GraphError::DuplicateLabel`], [`GraphError::NodeOutOfRange`], [`GraphError::SelfLoop`],
+    /// [`GraphError::BadWeight`] (zero, negative or not finite) and [`GraphError::DuplicateLink`],
+    /// which name the link by the labels of its nodes.
     pub fn undirected(
         labels: Vec<String>,
         links: &[(usize, usize, f64)],
     ) -> Result<Self, GraphError> {
         let n_nodes = labels.len();
-        if n_nodes == 0 {
-            return Err(GraphError::Empty);
-        }
-        if u32::try_from(n_nodes).is_err() {
-            return Err(GraphError::TooManyNodes { n_nodes });
-        }
+        check_labels(&labels)?;
         let mut entries = TriMatI::with_capacity((n_nodes, n_nodes), 2 * links.len());
         for &(i, j, weight) in links {
-            if let Some(&node) = [i, j].iter().find(|&&node| node >= n_nodes) {
-                return Err(GraphError::NodeOutOfRange { node, n_nodes });
-            }
-            if i == j {
-                return Err(GraphError::SelfLoop { node: labels[i].clone() });
-            }
-            if !(weight.is_finite() && weight > 0.0) {
-                let (from, to) = (labels[i].clone(), labels[j].clone());
-                return Err(GraphError::BadWeight { from, to, weight });
-            }
-            #[expect(clippy::cast_possible_truncation, reason = "n_nodes fits in u32")]
-            let (row, col) = (i as u32, j as u32);
-            entries.add_triplet(row as usize, col as usize, weight);
-            entries.add_triplet(col as usize, row as usize, weight);
+            check_link(&labels, i, j, weight)?;
+            entries.add_triplet(i, j, weight);
+            entries.add_triplet(j, i, weight);
         }
         let adjacency: SparseMatrix = entries.to_csr();
         if adjacency.nnz() != 2 * links.len() {
             let (from, to) = duplicate(links).expect("to_csr merges only links given twice");
-            return Err(GraphError::DuplicateLink {
-                from: labels[from].clone(),
-                to: labels[to].clone(),
-            });
+            let (from, to) = (labels[from].clone(), labels[to].clone());
+            return Err(GraphError::DuplicateLink { from, to });
         }
         Ok(Self { adjacency, labels })
     }
@@ -128,11 +111,38 @@ impl Network {
     }
 }
 
+fn check_labels(labels: &[String]) -> Result<(), GraphError> {
+    let n_nodes = labels.len();
+    if n_nodes == 0 {
+        return Err(GraphError::Empty);
+    }
+    if u32::try_from(n_nodes).is_err() {
+        return Err(GraphError::TooManyNodes { n_nodes });
+    }
+    let mut seen = HashSet::with_capacity(n_nodes);
+    match labels.iter().find(|&label| !seen.insert(label)) {
+        Some(label) => Err(GraphError::DuplicateLabel { label: label.clone() }),
+        None => Ok(()),
+    }
+}
+
+fn check_link(labels: &[String], i: usize, j: usize, weight: f64) -> Result<(), GraphError> {
+    let n_nodes = labels.len();
+    if let Some(&node) = [i, j].iter().find(|&&node| node >= n_nodes) {
+        return Err(GraphError::NodeOutOfRange { node, n_nodes });
+    }
+    if i == j {
+        return Err(GraphError::SelfLoop { node: labels[i].clone() });
+    }
+    if !(weight.is_finite() && weight > 0.0) {
+        let (from, to) = (labels[i].clone(), labels[j].clone());
+        return Err(GraphError::BadWeight { from, to, weight });
+    }
+    Ok(())
+}
+
 /// The first link that repeats an earlier one in either direction.
 fn duplicate(links: &[(usize, usize, f64)]) -> Option<(usize, usize)> {
-    let mut seen = HashMap::new();
-    links
-        .iter()
-        .find(|&&(i, j, _)| seen.insert((i.min(j), i.max(j)), ()).is_some())
-        .map(|&(i, j, _)| (i, j))
+    let mut seen = HashSet::new();
+    links.iter().find(|&&(i, j, _)| !seen.insert((i.min(j), i.max(j)))).map(|&(i, j, _)| (i, j))
 }

@@ -1,1 +1,7 @@
-//! Readers of network formats.
+//! Readers of network formats, one file a format, each from any [`std::io::Read`].
+
+pub mod edge_list;
+mod fields;
+mod text;
+
+pub use text::{MAX_LINE_BYTES, TextError};

@@ -1,0 +1,333 @@
+//! The eigenvector distance δe_ij = (1/m) Σ_{k unstable} |v_k,i − v_k,j| over m transverse modes.
+//!
+//! Within an eigenspace of dimension d > 1 the sum depends on the basis, which is arbitrary; it is
+//! replaced by its mean over all orthonormal bases. Let P be the projector on the eigenspace and
+//! x = P(e_i − e_j), in a given basis the vector of components v_k,i − v_k,j. A random orthonormal
+//! basis u_1 … u_d has each u_b uniform on the unit sphere of the eigenspace, hence
+//!
+//! ```text
+//! E Σ_b |u_b · x| = d ‖x‖ E|u_1| = ‖x‖ c_d,    c_d = d Γ(d/2) / (√π Γ((d+1)/2)),
+//! ```
+//!
+//! with E|u_1| the mean modulus of one component of a unit vector, from ∫|cos θ| sin^{d−2} θ dθ.
+//! At d = 1 this is |v_i − v_j| itself, and for any d it is a pseudometric: a sum of norms of
+//! differences.
+//!
+//! Eigenvalue 0 of a network of several components: the eigenspace also holds the vector of equal
+//! components, the synchronous mode. Projecting that out leaves x as it is (it is orthogonal to
+//! e_i − e_j) and lowers only d by one.
+//!
+//! Source: Fan, Wang & Wang (2023), Sec. II, for δe; the mean over bases is ours.
+
+use std::ops::Range;
+
+use spectra::Spectrum;
+
+use crate::{ClusteringError, Partition};
+
+/// Below this, components are equal whatever the residuals say: no solver in double precision is
+/// more accurate.
+const ROUNDING: f64 = 1e-12;
+
+/// Room in the bound on eigenvectors for what the residuals of a non-symmetric (normalized) matrix
+/// leave open, the condition of its similarity to a symmetric one.
+const SAFETY: f64 = 10.0;
+
+/// Smallest gap, relative to the largest |λ| computed, that enters the bound.
+const SMALLEST_GAP: f64 = 1e-4;
+
+/// Largest uncertainty for exact clusters, relative to a typical component 1/√N.
+const LARGEST_UNCERTAINTY: f64 = 1e-3;
+
+/// How much less than 1 the constant vector's share in the first eigenspace may be.
+const CONSTANT_SHARE: f64 = 1e-6;
+
+/// δe_ij for one set of unstable modes, and the clusters it implies.
+#[derive(Clone, Debug)]
+pub struct EigenvectorDistance {
+    n_nodes: usize,
+    n_modes: usize,
+    /// Components of node i in all unstable eigenspaces, row i of shape (N, width).
+    rows: Vec<f64>,
+    width: usize,
+    blocks: Vec<Block>,
+    exact_tolerance: f64,
+}
+
+/// One eigenspace.
+#[derive(Clone, Debug)]
+struct Block {
+    columns: Range<usize>,
+    /// c_d / m.
+    factor: f64,
+}
+
+impl EigenvectorDistance {
+    /// The distance for these unstable transverse modes (from 0, in any order).
+    ///
+    /// Eigenspaces are unstable as a whole. With no modes all distances are zero. If the spectrum is
+    /// partial and its last modes are among those given, the result is that of the basis at hand
+    /// where the spectrum cuts an eigenspace. Keeps a copy of shape (N, m).
+    ///
+    /// # Errors
+    /// [`ClusteringError::SynchronousMode`], [`ClusteringError::ModeOutOfRange`],
+    /// [`ClusteringError::PartOfEigenspace`], and [`ClusteringError::NoSynchronousMode`] for a
+    /// spectrum whose first eigenspace lacks the vector of equal components.
+    ///
+    /// # Panics
+    /// If the parts of the spectrum differ in length.
+    pub fn new(spectrum: &Spectrum, modes: &[usize]) -> Result<Self, ClusteringError> {
+        check_shapes(spectrum);
+        check_synchronous_mode(spectrum)?;
+        let chosen = chosen_eigenspaces(spectrum, modes)?;
+        let spaces: Vec<_> = chosen.iter().map(|&s| spectrum.eigenspaces[s].clone()).collect();
+        let n_modes = spaces.iter().map(|space| transverse(space).len()).sum();
+        Ok(Self {
+            n_nodes: spectrum.eigenvectors[0].len(),
+            n_modes,
+            rows: interleaved(spectrum, &spaces),
+            width: spaces.iter().map(ExactSizeIterator::len).sum(),
+            blocks: blocks(&spaces, n_modes),
+            exact_tolerance: exact_tolerance(spectrum, &chosen),
+        })
+    }
+
+    /// Number of nodes N.
+    pub fn n_nodes(&self) -> usize {
+        self.n_nodes
+    }
+
+    /// Number m of unstable transverse modes.
+    pub fn n_modes(&self) -> usize {
+        self.n_modes
+    }
+
+    /// δe_ij, dimensionless.
+    pub fn between(&self, i: usize, j: usize) -> f64 {
+        self.between_up_to(i, j, f64::INFINITY)
+    }
+
+    /// δe_ij of all pairs, shape (N, N), row by row.
+    pub fn matrix(&self) -> Vec<f64> {
+        let row = |i| (0..self.n_nodes).map(move |j| self.between(i, j));
+        (0..self.n_nodes).flat_map(row).collect()
+    }
+
+    /// How far apart two nodes of an exact cluster may be in the unstable subspace: a bound on what
+    /// the solver's residuals can have done to ‖P(e_i − e_j)‖, P the projector on that subspace.
+    ///
+    /// It is √2 ‖R‖ / gap (Davis & Kahan, SIAM J. Numer. Anal. 7, 1 (1970)), R the residuals of the
+    /// unstable modes and gap their distance to the other transverse eigenvalues, times 10 for
+    /// matrices that are only similar to symmetric ones, and at least 1e-12. A gap below 1e-4 of
+    /// the largest |λ| counts as that: where two eigenvalues are so close, the only harm is that
+    /// clusters lost with the second may be lost already with the first, within 1e-4 of its
+    /// critical coupling.
+    pub fn exact_tolerance(&self) -> f64 {
+        self.exact_tolerance
+    }
+
+    /// Clusters of nodes that no unstable mode tells apart: δe_ij = 0.
+    ///
+    /// δe_ij vanishes exactly when ‖P(e_i − e_j)‖ does, and the latter is what the residuals bound:
+    /// single linkage of it at [`Self::exact_tolerance`].
+    ///
+    /// # Errors
+    /// [`ClusteringError::SpectrumTooRough`] when that tolerance exceeds 1e-3/√N.
+    pub fn exact_clusters(&self) -> Result<Partition, ClusteringError> {
+        if self.n_modes == 0 {
+            return Ok(Partition::one_cluster(self.n_nodes));
+        }
+        let tolerance = self.exact_tolerance;
+        let limit = LARGEST_UNCERTAINTY / (self.n_nodes as f64).sqrt();
+        if tolerance.is_nan() || tolerance > limit {
+            return Err(ClusteringError::SpectrumTooRough { tolerance, limit });
+        }
+        // A unit vector's component never exceeds the norm, so the window misses no pair.
+        let unit = 1.0 / (self.width as f64).sqrt();
+        let coordinate: Vec<f64> =
+            (0..self.n_nodes).map(|i| self.row(i).iter().sum::<f64>() * unit).collect();
+        let is_linked = |i, j| norm_of_difference(self.row(i), self.row(j)) <= tolerance;
+        Ok(Partition::single_linkage_along(&coordinate, widened(tolerance), is_linked))
+    }
+
+    /// Clusters by single linkage of δe_ij ≤ `threshold`; chains link.
+    ///
+    /// # Errors
+    /// [`ClusteringError::BadThreshold`] when it is negative or not finite.
+    pub fn clusters_within(&self, threshold: f64) -> Result<Partition, ClusteringError> {
+        if !(threshold.is_finite() && threshold >= 0.0) {
+            return Err(ClusteringError::BadThreshold { threshold });
+        }
+        if self.n_modes == 0 {
+            return Ok(Partition::one_cluster(self.n_nodes));
+        }
+        // One component of each eigenspace's difference never exceeds its norm, so that the
+        // coordinates of two nodes differ by no more than their distance.
+        let along = |i: usize| {
+            let row = self.row(i);
+            self.blocks.iter().map(|b| b.factor * row[b.columns.start]).sum()
+        };
+        let coordinate: Vec<f64> = (0..self.n_nodes).map(along).collect();
+        let is_linked = |i, j| self.between_up_to(i, j, threshold) <= threshold;
+        Ok(Partition::single_linkage_along(&coordinate, widened(threshold), is_linked))
+    }
+
+    /// δe_ij if it is at most `limit`, otherwise some value between `limit` and δe_ij.
+    fn between_up_to(&self, i: usize, j: usize, limit: f64) -> f64 {
+        let (a, b) = (self.row(i), self.row(j));
+        let mut sum = 0.0;
+        for block in &self.blocks {
+            let columns = block.columns.clone();
+            sum += block.factor * norm_of_difference(&a[columns.clone()], &b[columns]);
+            if sum > limit {
+                break;
+            }
+        }
+        sum
+    }
+
+    fn row(&self, i: usize) -> &[f64] {
+        &self.rows[i * self.width..(i + 1) * self.width]
+    }
+}
+
+/// c_d = d Γ(d/2) / (√π Γ((d+1)/2)): the mean of Σ_b |u_b · x| over orthonormal bases u_1 … u_d, for
+/// a unit vector x in d dimensions.
+///
+/// From c_1 = 1, c_2 = 4/π and c_{d+2} = c_d (d+2)/(d+1), which loses no digits at large d; O(d).
+///
+/// # Panics
+/// At d = 0.
+pub fn mean_over_bases(dimension: usize) -> f64 {
+    assert!(dimension > 0, "an eigenspace has at least one dimension, found {dimension}");
+    let start = if dimension % 2 == 1 { 1.0 } else { 4.0 / std::f64::consts::PI };
+    let first = if dimension % 2 == 1 { 1 } else { 2 };
+    (first..dimension).step_by(2).fold(start, |c, d| c * (d as f64 + 2.0) / (d as f64 + 1.0))
+}
+
+/// The modes of an eigenspace without mode 0, the synchronous one.
+pub(crate) fn transverse(eigenspace: &Range<usize>) -> Range<usize> {
+    eigenspace.start.max(1)..eigenspace.end
+}
+
+fn check_shapes(spectrum: &Spectrum) {
+    let n_modes = spectrum.eigenvalues.len();
+    let (n_vectors, n_residuals) = (spectrum.eigenvectors.len(), spectrum.residuals.len());
+    assert!(
+        n_modes > 0 && n_vectors == n_modes && n_residuals == n_modes,
+        "{n_modes} eigenvalues, {n_vectors} eigenvectors, {n_residuals} residuals"
+    );
+    let n_nodes = spectrum.eigenvectors[0].len();
+    assert!(
+        spectrum.eigenvectors.iter().all(|v| v.len() == n_nodes),
+        "eigenvectors of different lengths, the first {n_nodes}"
+    );
+    let covered = spectrum.eigenspaces.iter().fold(0, |end, space| {
+        assert!(space.start == end && space.end > end, "eigenspace {space:?} after mode {end}");
+        space.end
+    });
+    assert_eq!(covered, n_modes, "eigenspaces cover {covered} of {n_modes} modes");
+}
+
+/// The vector of equal components is an eigenvector of eigenvalue 0, the largest there is.
+pub(crate) fn check_synchronous_mode(spectrum: &Spectrum) -> Result<(), ClusteringError> {
+    let n_nodes = spectrum.eigenvectors[0].len() as f64;
+    let share = |v: &Vec<f64>| v.iter().sum::<f64>().powi(2) / n_nodes;
+    let overlap = spectrum.eigenvectors[spectrum.eigenspaces[0].clone()].iter().map(share).sum();
+    if (1.0 - CONSTANT_SHARE..=1.0 + CONSTANT_SHARE).contains(&overlap) {
+        Ok(())
+    } else {
+        Err(ClusteringError::NoSynchronousMode { overlap })
+    }
+}
+
+/// The eigenspaces, by number, whose transverse modes are those given.
+fn chosen_eigenspaces(spectrum: &Spectrum, modes: &[usize]) -> Result<Vec<usize>, ClusteringError> {
+    let n_modes = spectrum.eigenvalues.len();
+    let mut is_given = vec![false; n_modes];
+    for &mode in modes {
+        if mode == 0 {
+            return Err(ClusteringError::SynchronousMode);
+        }
+        *is_given.get_mut(mode).ok_or(ClusteringError::ModeOutOfRange { mode, n_modes })? = true;
+    }
+    let mut chosen = Vec::new();
+    for (number, space) in spectrum.eigenspaces.iter().enumerate() {
+        let Range { start: first, end } = transverse(space);
+        if !is_given[first..end].contains(&true) {
+            continue;
+        }
+        if let Some(missing) = (first..end).find(|&mode| !is_given[mode]) {
+            return Err(ClusteringError::PartOfEigenspace { first, last: end - 1, missing });
+        }
+        chosen.push(number);
+    }
+    Ok(chosen)
+}
+
+/// The modes of these eigenspaces, node by node.
+fn interleaved(spectrum: &Spectrum, spaces: &[Range<usize>]) -> Vec<f64> {
+    let vectors: Vec<&Vec<f64>> =
+        spaces.iter().flat_map(|space| &spectrum.eigenvectors[space.clone()]).collect();
+    let n_nodes = spectrum.eigenvectors[0].len();
+    (0..n_nodes).flat_map(|i| vectors.iter().map(move |v| v[i])).collect()
+}
+
+fn blocks(spaces: &[Range<usize>], n_modes: usize) -> Vec<Block> {
+    let mut start = 0;
+    spaces
+        .iter()
+        .map(|space| {
+            let columns = start..start + space.len();
+            start = columns.end;
+            Block { columns, factor: mean_over_bases(transverse(space).len()) / n_modes as f64 }
+        })
+        .collect()
+}
+
+/// [`EigenvectorDistance::exact_tolerance`] for these eigenspaces.
+fn exact_tolerance(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
+    let spaces = &spectrum.eigenspaces;
+    let residual = chosen
+        .iter()
+        .flat_map(|&s| &spectrum.residuals[spaces[s].clone()])
+        .fold(0.0, |norm: f64, &r| norm.hypot(r));
+    let largest = spectrum.eigenvalues.last().map_or(0.0, |l| l.abs());
+    let gap = gap(spectrum, chosen).max(SMALLEST_GAP * largest);
+    // Written so that a residual that is not a number stays one, and 0/0 does not make one.
+    let error = if residual == 0.0 { 0.0 } else { residual / gap };
+    let bound = SAFETY * std::f64::consts::SQRT_2 * error;
+    if bound < ROUNDING { ROUNDING } else { bound }
+}
+
+/// Distance of the chosen eigenvalues to the other transverse ones; zero where it is unknown, with
+/// the next eigenvalue not computed, and infinite where there are no others. `chosen` ascends.
+fn gap(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
+    let spaces = &spectrum.eigenspaces;
+    let is_partial = spectrum.eigenvalues.len() < spectrum.eigenvectors[0].len();
+    let is_chosen = |space: usize| chosen.binary_search(&space).is_ok();
+    if is_partial && is_chosen(spaces.len() - 1) {
+        return 0.0;
+    }
+    let mut gap = f64::INFINITY;
+    for (upper, pair) in spaces.windows(2).enumerate() {
+        let is_boundary = is_chosen(upper) != is_chosen(upper + 1);
+        if is_boundary && !transverse(&pair[0]).is_empty() {
+            let (above, below) = (pair[0].end - 1, pair[1].start);
+            gap = gap.min(spectrum.eigenvalues[above] - spectrum.eigenvalues[below]);
+        }
+    }
+    gap
+}
+
+fn norm_of_difference(a: &[f64], b: &[f64]) -> f64 {
+    match (a, b) {
+        ([a], [b]) => (a - b).abs(),
+        _ => a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt(),
+    }
+}
+
+/// A window that rounding of the coordinates cannot make too narrow.
+fn widened(threshold: f64) -> f64 {
+    threshold * (1.0 + 1e-9) + 1e-14
+}

@@ -1,0 +1,7 @@
+//! Tests of the predictions against closed forms, invariances and second routes.
+
+mod agreement;
+mod cascade;
+mod distance;
+mod fixtures;
+mod partition;
