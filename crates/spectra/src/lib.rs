@@ -1,5 +1,54 @@
 //! Leading eigenvalues, eigenvectors and eigenspaces of a coupling matrix, with none lost.
+//!
+//! W v_k = λ_k v_k with λ_1 ≥ λ_2 ≥ …. Both solvers work on the symmetric matrix S similar to W and
+//! take its eigenvectors u to node space by v = D^{-1/2} u; see [`graph::CouplingMatrix`].
+//!
+//! Entry: [`leading_modes`]. Knows nothing of what the modes are for.
 
+mod arpack;
+mod basis;
+mod completeness;
+mod dense;
+mod eigenspace;
+mod error;
+mod kernel;
+mod node_space;
+mod operator;
+mod request;
 mod spectrum;
+mod subspace;
 
+pub use error::SpectraError;
+pub use request::{DENSE_NODES, Modes, Request, SolverChoice};
 pub use spectrum::{Solver, Spectrum};
+pub use subspace::subspace_distance;
+
+use graph::CouplingMatrix;
+
+/// The modes of W that belong to its largest eigenvalues.
+///
+/// Whole eigenspaces only: when the count asked for would cut an eigenspace, the rest of that
+/// eigenspace is returned as well, because a part of it would depend on an arbitrary basis. The
+/// spectrum may therefore have more modes than [`Modes::Leading`] asked for, never fewer.
+///
+/// Every eigenpair satisfies ‖S u − λ u‖ ≤ `tolerance` · max_i |w_ii| with ‖u‖ = 1 (for the dense
+/// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Spectrum::residuals`] are those of W itself
+/// in node space, which differ from these by at most √(max k_i / min k_i) for a normalized matrix.
+///
+/// The same matrix and request give the same bits on the same machine, whatever was solved before
+/// and whatever other threads solve meanwhile; with ARPACK this needs a fixed number of BLAS threads.
+///
+/// # Errors
+/// [`SpectraError::NoModes`], [`SpectraError::TooManyModes`], [`SpectraError::BadTolerance`],
+/// [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
+/// met; [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
+/// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
+/// allowed does not suffice.
+pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, SpectraError> {
+    let plan = request.resolve(w)?;
+    let found = match plan.solver {
+        Solver::Dense => dense::leading(w.symmetric(), &plan)?,
+        Solver::Arpack => completeness::leading(w, &plan)?,
+    };
+    node_space::spectrum(w, found, &plan)
+}

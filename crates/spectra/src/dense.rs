@@ -1,0 +1,55 @@
+//! All eigenpairs of a symmetric matrix stored in full, by faer's self-adjoint eigensolver.
+//!
+//! S = U Λ Uᵀ by reduction to a tridiagonal matrix and divide and conquer. One thread always, so
+//! that the result does not depend on how many there are.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::{Mat, Par, diag::Diag};
+use graph::SparseMatrix;
+
+use crate::basis::Eigenpairs;
+use crate::request::Plan;
+use crate::{SpectraError, completeness::Found, eigenspace};
+
+/// The leading modes of S, whole eigenspaces only.
+pub(crate) fn leading(matrix: &SparseMatrix, plan: &Plan) -> Result<Found, SpectraError> {
+    let mut full = vec![0.0; matrix.rows() * matrix.cols()];
+    for (i, row) in matrix.outer_iterator().enumerate() {
+        for (j, &s_ij) in row.iter() {
+            full[i * matrix.cols() + j] = s_ij;
+        }
+    }
+    let mut pairs = symmetric_eigen(matrix.rows(), |i, j| full[i * matrix.cols() + j])?;
+    pairs.truncate(eigenspace::end_of_eigenspace(&pairs.values, plan.n_modes, plan.grouping));
+    Ok(Found { pairs, products: 0 })
+}
+
+/// All eigenpairs of the symmetric matrix with the given entries; the lower triangle is read.
+pub(crate) fn symmetric_eigen(
+    n_rows: usize,
+    entry: impl Fn(usize, usize) -> f64,
+) -> Result<Eigenpairs, SpectraError> {
+    let matrix = Mat::from_fn(n_rows, n_rows, |i, j| if i >= j { entry(i, j) } else { 0.0 });
+    let mut ascending = Diag::<f64>::zeros(n_rows);
+    let mut vectors = Mat::<f64>::zeros(n_rows, n_rows);
+    let scratch = self_adjoint_evd_scratch::<f64>(
+        n_rows,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        Default::default(),
+    );
+    self_adjoint_evd(
+        matrix.as_ref(),
+        ascending.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| SpectraError::DenseNotConverged { n_rows })?;
+    Ok(Eigenpairs {
+        values: ascending.column_vector().iter().rev().copied().collect(),
+        vectors: vectors.col_iter().rev().map(|u| u.iter().copied().collect()).collect(),
+    })
+}

@@ -1,0 +1,114 @@
+//! Why a spectrum could not be computed.
+
+use thiserror::Error;
+
+/// What went wrong on the way to a spectrum.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SpectraError {
+    /// No modes were asked for.
+    #[error("0 modes were asked for; a spectrum has at least one")]
+    NoModes,
+    /// More modes were asked for than there are.
+    #[error("{requested} modes were asked for, but a network of {n_nodes} nodes has {n_nodes}")]
+    TooManyModes {
+        /// Modes asked for.
+        requested: usize,
+        /// Number of nodes N.
+        n_nodes: usize,
+    },
+    /// ARPACK cannot find all modes.
+    #[error(
+        "{requested} modes of a network of {n_nodes} nodes were asked of ARPACK, which finds at \
+         most {}; use the dense solver for all", n_nodes - 1
+    )]
+    BeyondArpack {
+        /// Modes asked for.
+        requested: usize,
+        /// Number of nodes N.
+        n_nodes: usize,
+    },
+    /// More nodes or modes than ARPACK's 32-bit integers can count.
+    #[error(
+        "a basis of {n_basis} vectors over {n_nodes} nodes is beyond the 32-bit integers of ARPACK"
+    )]
+    TooLargeForArpack {
+        /// Number of nodes N.
+        n_nodes: usize,
+        /// Size of the Krylov basis.
+        n_basis: usize,
+    },
+    /// A tolerance that is out of reach or meaningless.
+    #[error("the tolerance is {tolerance:e}, but must lie between {strictest:e} and {loosest:e}")]
+    BadTolerance {
+        /// The tolerance asked for.
+        tolerance: f64,
+        /// The smallest allowed.
+        strictest: f64,
+        /// The largest allowed.
+        loosest: f64,
+    },
+    /// An entry of the coupling matrix overflowed.
+    #[error("row {node} of the coupling matrix contains {value}")]
+    NotFinite {
+        /// Row of the entry, from 0.
+        node: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// The work allowed ended before all modes had converged.
+    #[error(
+        "{converged} of {requested} modes converged to a relative residual of {tolerance:e} in \
+         {products} matrix–vector products"
+    )]
+    NotConverged {
+        /// Modes that had converged.
+        converged: usize,
+        /// Modes asked for.
+        requested: usize,
+        /// Relative residual asked for.
+        tolerance: f64,
+        /// Products spent.
+        products: usize,
+    },
+    /// As many modes converged as were asked for, but some of them may not be the leading ones.
+    #[error(
+        "all {requested} modes converged, but {products} matrix–vector products did not suffice \
+         to show that no copy of a multiple eigenvalue is missing"
+    )]
+    CompletenessUnproven {
+        /// Modes asked for.
+        requested: usize,
+        /// Products spent.
+        products: usize,
+    },
+    /// The last eigenspace goes on beyond the modes that may be added to complete it.
+    #[error(
+        "mode {requested} lies in an eigenspace (λ = {eigenvalue}) that goes on beyond mode \
+         {found}, and at most {max_extra} modes may be added to complete it"
+    )]
+    EigenspaceTooLarge {
+        /// Modes asked for.
+        requested: usize,
+        /// Eigenvalue of the last of them.
+        eigenvalue: f64,
+        /// Modes found down to the part of that eigenspace that is known.
+        found: usize,
+        /// Modes allowed beyond those asked for.
+        max_extra: usize,
+    },
+    /// The dense solver gave up.
+    #[error("the dense eigensolver did not converge on a matrix of {n_rows} rows")]
+    DenseNotConverged {
+        /// Number of rows.
+        n_rows: usize,
+    },
+    /// An ARPACK routine reported an error of its own.
+    #[error("ARPACK's {routine} failed with info = {info}")]
+    ArpackFailed {
+        /// `dsaupd` or `dseupd`.
+        routine: &'static str,
+        /// Its `info` code, as in ARPACK's documentation.
+        info: i32,
+    },
+}

@@ -1,0 +1,169 @@
+//! Networks with known spectra, and what every spectrum must satisfy.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::f64::consts::PI;
+
+use graph::{CouplingMatrix, Network, Normalization};
+use spectra::{Modes, Request, SolverChoice, Spectrum, leading_modes};
+use sprs::prod::mul_acc_mat_vec_csr;
+
+pub const BOTH: [Normalization; 2] = [Normalization::Laplacian, Normalization::Normalized];
+
+pub fn network(n_nodes: usize, links: &[(usize, usize, f64)]) -> Network {
+    Network::undirected((1..=n_nodes).map(|i| i.to_string()).collect(), links).unwrap()
+}
+
+fn unit(n_nodes: usize, links: impl IntoIterator<Item = (usize, usize)>) -> Network {
+    network(n_nodes, &links.into_iter().map(|(i, j)| (i, j, 1.0)).collect::<Vec<_>>())
+}
+
+/// One hub, node 0.
+pub fn star(n_leaves: usize) -> Network {
+    unit(n_leaves + 1, (1..=n_leaves).map(|leaf| (0, leaf)))
+}
+
+pub fn complete(n_nodes: usize) -> Network {
+    unit(n_nodes, (0..n_nodes).flat_map(|i| (0..i).map(move |j| (i, j))))
+}
+
+pub fn path(n_nodes: usize) -> Network {
+    unit(n_nodes, (1..n_nodes).map(|i| (i - 1, i)))
+}
+
+pub fn ring(n_nodes: usize) -> Network {
+    unit(n_nodes, (0..n_nodes).map(|i| (i, (i + 1) % n_nodes)))
+}
+
+pub fn torus(side: usize) -> Network {
+    let node = move |i: usize, j: usize| (i % side) * side + j % side;
+    let right_and_down = move |i, j| [(node(i, j), node(i, j + 1)), (node(i, j), node(i + 1, j))];
+    let cells = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
+    unit(side * side, cells.flat_map(move |(i, j)| right_and_down(i, j)))
+}
+
+/// Cliques of five nodes; the last node of each is linked to the first of the next.
+pub fn ring_of_cliques(n_cliques: usize) -> Network {
+    let clique = |c: usize| (0..5).flat_map(move |i| (0..i).map(move |j| (5 * c + i, 5 * c + j)));
+    let bridge = |c: usize| (5 * c + 4, 5 * ((c + 1) % n_cliques));
+    unit(5 * n_cliques, (0..n_cliques).flat_map(|c| clique(c).chain([bridge(c)])))
+}
+
+/// The network of the paper's Fig. 1(a1).
+pub fn six_node() -> Network {
+    let unit_links = [(1, 2), (1, 4), (1, 6), (2, 3), (3, 4), (4, 5), (5, 6)];
+    let mut links: Vec<_> = unit_links.iter().map(|&(i, j)| (i - 1, j - 1, 1.0)).collect();
+    links.extend([(1, 5, 1.5), (2, 4, 1.5)]);
+    network(6, &links)
+}
+
+/// The Nepal power grid of the paper's Fig. 1(b1).
+pub fn nepal() -> Network {
+    let (left, middle, right) = (1..=5, 6..=8, 9..=13);
+    let within = |nodes: std::ops::RangeInclusive<usize>| {
+        nodes.clone().flat_map(move |i| (*nodes.start()..i).map(move |j| (i, j)))
+    };
+    let to_middle = left.clone().chain(right.clone()).chain([14]);
+    let links = within(left)
+        .chain(within(middle.clone()))
+        .chain(within(right.clone()))
+        .chain(to_middle.flat_map(move |i| middle.clone().map(move |j| (i, j))))
+        .chain(right.map(|i| (14, i)))
+        .chain([(14, 15)]);
+    unit(15, links.map(|(i, j)| (i - 1, j - 1)))
+}
+
+/// Eigenvalues 2 (cos 2πa/side − 1) + 2 (cos 2πb/side − 1) of a torus, descending.
+pub fn torus_eigenvalues(side: usize) -> Vec<f64> {
+    let along = |a: usize| 2.0 * ((2.0 * PI * a as f64 / side as f64).cos() - 1.0);
+    descending((0..side).flat_map(|a| (0..side).map(move |b| along(a) + along(b))))
+}
+
+pub fn descending(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    values
+}
+
+pub fn dense() -> Request {
+    Request { solver: SolverChoice::Dense, ..Request::default() }
+}
+
+pub fn arpack(n_modes: usize) -> Request {
+    Request { modes: Modes::Leading(n_modes), solver: SolverChoice::Arpack, ..Request::default() }
+}
+
+/// Solves, and checks what every spectrum must satisfy.
+pub fn solve(w: &CouplingMatrix, request: &Request) -> Spectrum {
+    let spectrum = leading_modes(w, request).unwrap();
+    check_spectrum(w, &spectrum);
+    spectrum
+}
+
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// max_i |w_ii|.
+pub fn scale(w: &CouplingMatrix) -> f64 {
+    let largest = w.matrix().iter().fold(0.0f64, |largest, (w_ij, _)| largest.max(w_ij.abs()));
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+/// √(max k_i / min k_i): by how much D^{-1/2} may enlarge a residual.
+pub fn condition(w: &CouplingMatrix) -> f64 {
+    let largest = w.scale().iter().copied().fold(0.0, f64::max);
+    largest / w.scale().iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn check_spectrum(w: &CouplingMatrix, spectrum: &Spectrum) {
+    let Spectrum { eigenvalues, eigenvectors, residuals, eigenspaces, tolerance, .. } = spectrum;
+    assert_eq!((eigenvectors.len(), residuals.len()), (eigenvalues.len(), eigenvalues.len()));
+    assert!(eigenvalues.windows(2).all(|pair| pair[0] >= pair[1]), "{eigenvalues:?}");
+    check_residuals(w, spectrum);
+    let covered: Vec<usize> = eigenspaces.iter().cloned().flatten().collect();
+    assert_eq!(covered, (0..eigenvalues.len()).collect::<Vec<_>>());
+    for pair in eigenspaces.windows(2) {
+        let gap = eigenvalues[pair[0].end - 1] - eigenvalues[pair[1].start];
+        assert!(gap > *tolerance, "{gap} is within {tolerance}");
+    }
+    for range in eigenspaces {
+        check_orthonormal(&eigenvectors[range.clone()]);
+    }
+    eigenvectors.iter().for_each(|v| check_sign(v));
+}
+
+fn check_residuals(w: &CouplingMatrix, spectrum: &Spectrum) {
+    let bound = 1e-12 * scale(w) * condition(w);
+    for ((lambda, v), reported) in
+        spectrum.eigenvalues.iter().zip(&spectrum.eigenvectors).zip(&spectrum.residuals)
+    {
+        let mut image = vec![0.0; v.len()];
+        mul_acc_mat_vec_csr(w.matrix().view(), v.as_slice(), &mut image);
+        let residual = image.iter().zip(v).map(|(y, x)| (y - lambda * x).powi(2)).sum::<f64>();
+        assert!(residual.sqrt() <= bound, "{} > {bound} at {lambda}", residual.sqrt());
+        assert!((residual.sqrt() - reported).abs() <= 1e-14 * scale(w) * condition(w));
+    }
+}
+
+fn check_orthonormal(vectors: &[Vec<f64>]) {
+    for (i, v) in vectors.iter().enumerate() {
+        for (j, other) in vectors.iter().enumerate() {
+            let expected = if i == j { 1.0 } else { 0.0 };
+            assert!((dot(v, other) - expected).abs() < 1e-13, "{i} {j}: {}", dot(v, other));
+        }
+    }
+}
+
+fn check_sign(v: &[f64]) {
+    let largest = v.iter().fold(0.0f64, |largest, v_i| largest.max(v_i.abs()));
+    let decides = v.iter().find(|v_i| v_i.abs() >= (1.0 - 1e-6) * largest).unwrap();
+    assert!(*decides > 0.0, "{v:?}");
+}
+
+/// Asserts |λ_k − expected_k| ≤ bound for the modes computed.
+pub fn check_eigenvalues(spectrum: &Spectrum, expected: &[f64], bound: f64) {
+    assert!(spectrum.eigenvalues.len() <= expected.len());
+    for (k, (lambda, expected)) in spectrum.eigenvalues.iter().zip(expected).enumerate() {
+        assert!((lambda - expected).abs() <= bound, "λ_{} = {lambda}, not {expected}", k + 1);
+    }
+}
