@@ -33,12 +33,3 @@ pub struct Spectrum {
     /// Matrix–vector products spent on finding the modes (0 for the dense solver).
     pub products: usize,
 }
-
-impl Spectrum {
-    /// Eigenvectors of all eigenspaces that hold any of these modes (counted from 0).
-    pub fn eigenspaces_of(&self, modes: &[usize]) -> Vec<Vec<f64>> {
-        let touched =
-            self.eigenspaces.iter().filter(|space| modes.iter().any(|mode| space.contains(mode)));
-        touched.flat_map(|space| self.eigenvectors[space.clone()].iter().cloned()).collect()
-    }
-}

@@ -1,0 +1,270 @@
+//! Claims: what the source says, what was obtained, and the verdict.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use graph::Network;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::problem::{Problem, Result};
+use crate::spec::{ClaimSpec, Name, Quantity};
+
+/// A judged claim.
+#[derive(Clone, Debug, Serialize)]
+pub struct Claim {
+    pub name: String,
+    pub source: String,
+    pub paper: Value,
+    pub obtained: Value,
+    pub tolerance: String,
+    pub verdict: Verdict,
+    /// Why the tolerance is what it is, or why a difference is known.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub reason: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Verdict {
+    #[serde(rename = "holds")]
+    Holds,
+    #[serde(rename = "differs")]
+    Differs,
+    /// The file says why this cannot agree.
+    #[serde(rename = "differs as known")]
+    DiffersAsKnown,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Holds => "holds",
+            Self::Differs => "differs",
+            Self::DiffersAsKnown => "differs as known",
+        })
+    }
+}
+
+/// Judges every claim of an experiment, in the order of its file.
+pub fn judge(plan: &Plan, findings: &Findings) -> Result<Vec<Claim>> {
+    let claims = plan.experiment.claims.iter();
+    claims.map(|(name, spec)| Judge { name, spec, plan, findings }.judge()).collect()
+}
+
+struct Judge<'a> {
+    name: &'a str,
+    spec: &'a ClaimSpec,
+    plan: &'a Plan,
+    findings: &'a Findings,
+}
+
+impl Judge<'_> {
+    fn judge(&self) -> Result<Claim> {
+        let spec = self.spec;
+        let (paper, obtained, tolerance, holds) = match spec.of {
+            Quantity::Eigenvectors => self.eigenvectors()?,
+            Quantity::CascadeClusters | Quantity::SimulatedClusters => self.clusters()?,
+            Quantity::CascadeOrder | Quantity::SimulatedOrder => self.order()?,
+            _ => self.numbers()?,
+        };
+        let verdict = match (holds, &spec.known_difference) {
+            (true, _) => Verdict::Holds,
+            (false, Some(_)) => Verdict::DiffersAsKnown,
+            (false, None) => Verdict::Differs,
+        };
+        let known = spec.known_difference.clone().filter(|_| verdict == Verdict::DiffersAsKnown);
+        let own = &self.plan.experiment.source;
+        Ok(Claim {
+            name: self.name.to_owned(),
+            source: if spec.source.is_empty() { own.clone() } else { spec.source.clone() },
+            paper,
+            obtained,
+            tolerance,
+            verdict,
+            reason: known.unwrap_or_else(|| spec.reason.clone()),
+        })
+    }
+
+    /// One number or a list of numbers.
+    fn numbers(&self) -> Result<(Value, Value, String, bool)> {
+        let obtained = self.obtained_numbers();
+        let shown = match &obtained[..] {
+            [Some(single)] => json!(single),
+            [None] => Value::Null,
+            many => json!(many),
+        };
+        let all = |holds: &dyn Fn(f64) -> bool| obtained.iter().all(|x| x.is_some_and(holds));
+        if let Some(limit) = self.spec.at_most {
+            return Ok((json!(limit), shown, "at most".into(), all(&|x| x <= limit)));
+        }
+        if let Some(limit) = self.spec.at_least {
+            return Ok((json!(limit), shown, "at least".into(), all(&|x| x >= limit)));
+        }
+        let paper: Vec<f64> = match self.equals("a number or a list of numbers")? {
+            OneOrMany::One(number) => vec![number],
+            OneOrMany::Many(numbers) => numbers,
+        };
+        let (abs, rel) = (self.spec.abs_tol.unwrap_or(0.0), self.spec.rel_tol.unwrap_or(0.0));
+        // A hair of slack: 4.2 ± 0.1 holds 4.1, whose difference is 0.10000000000000053.
+        let near = |x: f64, expected: f64| {
+            (x - expected).abs() <= (abs + rel * expected.abs()) * (1.0 + 1e-9)
+        };
+        let holds = obtained.len() == paper.len()
+            && obtained
+                .iter()
+                .zip(&paper)
+                .all(|(x, &expected)| x.is_some_and(|x| near(x, expected)));
+        let tolerance = match (abs > 0.0, rel > 0.0) {
+            (true, true) => format!("± {abs} ± {} %", 100.0 * rel),
+            (true, false) => format!("± {abs}"),
+            (false, true) => format!("± {} %", 100.0 * rel),
+            (false, false) => "exact".into(),
+        };
+        let paper = if let [single] = paper[..] { json!(single) } else { json!(paper) };
+        Ok((paper, shown, tolerance, holds))
+    }
+
+    fn obtained_numbers(&self) -> Vec<Option<f64>> {
+        let (findings, at) = (self.findings, &self.spec.at);
+        let clusters = || self.nodes(at.clusters.as_deref().unwrap_or_default());
+        match self.spec.of {
+            Quantity::Eigenvalues => {
+                findings.spectrum.eigenvalues.iter().copied().map(Some).collect()
+            }
+            Quantity::LyapunovIsolated => vec![Some(findings.msf.isolated.mean)],
+            Quantity::SigmaC => vec![findings.msf.sigma_c().map(|zero| zero.sigma)],
+            Quantity::CriticalCouplings => {
+                let of_mode = |mode: &usize| {
+                    let found =
+                        findings.critical.iter().find(|c| c.mode == *mode && c.stable_above);
+                    found.map(|critical| critical.epsilon)
+                };
+                at.modes.iter().flatten().map(of_mode).collect()
+            }
+            Quantity::SimulatedOnset => {
+                vec![findings.simulated.as_ref().and_then(|s| s.onset(&clusters()).mean)]
+            }
+            Quantity::SimulatedError => {
+                let error = findings.simulated.as_ref().and_then(|simulated| {
+                    let position = simulated.position(at.epsilon?)?;
+                    Some(simulated.largest_cluster_error(position, &clusters()))
+                });
+                vec![error.filter(|error| error.is_finite())]
+            }
+            // Judged by their own functions.
+            Quantity::Eigenvectors
+            | Quantity::CascadeClusters
+            | Quantity::SimulatedClusters
+            | Quantity::CascadeOrder
+            | Quantity::SimulatedOrder => vec![],
+        }
+    }
+
+    /// How far the span of the printed vectors of each eigenspace lies from that eigenspace.
+    fn eigenvectors(&self) -> Result<(Value, Value, String, bool)> {
+        let printed: Vec<Vec<f64>> = self.equals("a list of vectors")?;
+        let modes = self.spec.at.modes.clone().unwrap_or_default();
+        let n_nodes = self.plan.network.n_nodes();
+        if printed.len() != modes.len() || printed.iter().any(|v| v.len() != n_nodes) {
+            let message =
+                format!("needs a vector of {n_nodes} components for each of `where.modes`");
+            return Err(self.problem(&message));
+        }
+        let spectrum = &self.findings.spectrum;
+        let of_eigenspace = |eigenspace: &std::ops::Range<usize>| {
+            let inside =
+                modes.iter().zip(&printed).filter(|(mode, _)| eigenspace.contains(&(*mode - 1)));
+            let vectors: Vec<Vec<f64>> = inside.map(|(_, vector)| vector.clone()).collect();
+            let computed = &spectrum.eigenvectors[eigenspace.clone()];
+            if vectors.is_empty() { 0.0 } else { spectra::subspace_distance(&vectors, computed) }
+        };
+        let distance = spectrum.eigenspaces.iter().map(of_eigenspace).fold(0.0, f64::max);
+        let allowed = self.spec.abs_tol.unwrap_or(0.0);
+        let shown = json!(format!("{distance:.4} away"));
+        let paper = json!(format!(
+            "modes {} to {}",
+            modes.iter().min().unwrap_or(&0),
+            modes.iter().max().unwrap_or(&0)
+        ));
+        Ok((paper, shown, format!("≤ {allowed}"), distance <= allowed))
+    }
+
+    fn clusters(&self) -> Result<(Value, Value, String, bool)> {
+        let paper: Vec<Vec<Name>> = self.equals("a list of clusters")?;
+        let epsilon = self.spec.at.epsilon.unwrap_or_default();
+        let obtained = match self.spec.of {
+            Quantity::CascadeClusters => self.findings.predicted_at(epsilon).cloned(),
+            _ => self.findings.simulated.as_ref().and_then(|simulated| {
+                simulated.position(epsilon).and_then(|position| simulated.clusters(position))
+            }),
+        };
+        let named: BTreeSet<BTreeSet<usize>> =
+            self.nodes(&paper).into_iter().map(|cluster| cluster.into_iter().collect()).collect();
+        let Some(obtained) = obtained else {
+            return Ok((json!(texts(&paper)), Value::Null, "exact".into(), false));
+        };
+        let clusters = obtained.nontrivial();
+        let found = clusters.iter().map(|cluster| cluster.iter().copied().collect()).collect();
+        let shown = labelled(&clusters, &self.plan.network);
+        Ok((json!(texts(&paper)), json!(shown), "exact".into(), named == found))
+    }
+
+    /// Positions of the clusters, from 1, in the order in which they are lost as ε falls.
+    fn order(&self) -> Result<(Value, Value, String, bool)> {
+        let paper: Vec<usize> = self.equals("a list of positions")?;
+        let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
+        let lost_at = |cluster: &Vec<usize>| match self.spec.of {
+            Quantity::CascadeOrder => self.findings.predicted_loss(cluster),
+            _ => self
+                .findings
+                .simulated
+                .as_ref()
+                .and_then(|s| s.onset(std::slice::from_ref(cluster)).mean),
+        };
+        let lost: Option<Vec<f64>> = clusters.iter().map(lost_at).collect();
+        let Some(lost) = lost else {
+            return Ok((json!(paper), Value::Null, "exact".into(), false));
+        };
+        let mut order: Vec<usize> = (1..=clusters.len()).collect();
+        order.sort_by(|a, b| lost[b - 1].total_cmp(&lost[a - 1]));
+        let holds = order == paper;
+        Ok((json!(paper), json!(order), "exact".into(), holds))
+    }
+
+    fn equals<T: serde::de::DeserializeOwned>(&self, expected: &str) -> Result<T> {
+        let problem = || self.problem(&format!("needs `equals` to be {expected}"));
+        self.spec.equals.clone().ok_or_else(problem)?.try_into().map_err(|_| problem())
+    }
+
+    fn problem(&self, message: &str) -> Problem {
+        Problem::with_key(&self.plan.file, &format!("claims.{}", self.name), message)
+    }
+
+    /// Node numbers of labels that the plan has checked.
+    fn nodes(&self, clusters: &[Vec<Name>]) -> Vec<Vec<usize>> {
+        let network = &self.plan.network;
+        let nodes =
+            |cluster: &Vec<Name>| cluster.iter().filter_map(|name| network.node(&name.0)).collect();
+        clusters.iter().map(nodes).collect()
+    }
+}
+
+/// `equals` of a claim about numbers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
+fn texts(clusters: &[Vec<Name>]) -> Vec<Vec<&str>> {
+    clusters.iter().map(|cluster| cluster.iter().map(|name| name.0.as_str()).collect()).collect()
+}
+
+/// Clusters of nodes as clusters of labels.
+pub fn labelled<'a>(clusters: &[Vec<usize>], network: &'a Network) -> Vec<Vec<&'a str>> {
+    let label = |&node: &usize| network.labels()[node].as_str();
+    clusters.iter().map(|cluster| cluster.iter().map(label).collect()).collect()
+}

@@ -1,0 +1,195 @@
+//! The command line: `eigensync run`, `check`, `compare`, `list`.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::{Parser, Subcommand};
+
+use crate::claims::{Claim, Verdict};
+use crate::plan::{self, Plan};
+use crate::problem::{Problem, Result};
+use crate::progress::Stages;
+use crate::{check, claims, compare, findings, load, results, table};
+
+/// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
+/// order, and checks the prediction by simulation.
+///
+/// An experiment is a TOML file; its results go to results/NAME/. Start with `eigensync list`, then
+/// `eigensync check FILE` to see what a file will do and cost, then `eigensync run FILE`.
+#[derive(Parser)]
+#[command(name = "eigensync", version, arg_required_else_help = true, after_help = EXIT_STATUS)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_STATUS: &str = "Exit status: 0 when all claims and comparisons hold, 1 when some do not, \
+2 when a command could not run.";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run experiments and judge their claims
+    Run {
+        /// Experiment files, such as experiments/fig1-six-node.toml
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Ten times shorter averages and transients: a first look, with larger errors
+        #[arg(long)]
+        quick: bool,
+        /// Threads to use; all processors by default. Results do not depend on it
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        threads: Option<u16>,
+        #[command(flatten)]
+        folders: Folders,
+    },
+    /// Say what experiments will do and cost, without running them
+    Check {
+        /// Experiment files
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// As for `run`
+        #[arg(long)]
+        quick: bool,
+    },
+    /// Compare results with golden outputs and say what moved
+    Compare {
+        /// Names of experiments; all that have golden outputs by default
+        ids: Vec<String>,
+        #[command(flatten)]
+        folders: Folders,
+    },
+    /// List experiments with their titles, and whether there are results
+    List {
+        /// Folder of experiment files
+        #[arg(default_value = "experiments")]
+        experiments: PathBuf,
+        #[command(flatten)]
+        folders: Folders,
+    },
+}
+
+#[derive(clap::Args)]
+struct Folders {
+    /// Folder that holds the results
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+    /// Folder that holds the golden outputs
+    #[arg(long, value_name = "FOLDER", default_value = "experiments/golden")]
+    golden: PathBuf,
+}
+
+/// Runs a command; the result says whether everything held.
+pub fn run(cli: Cli) -> Result<bool> {
+    match cli.command {
+        Command::Run { files, quick, threads, folders } => {
+            if let Some(threads) = threads {
+                rayon::ThreadPoolBuilder::new()
+                    .num_threads(usize::from(threads))
+                    .build_global()
+                    .map_err(|error| Problem::from_error("the threads cannot be started", error))?;
+            }
+            run_files(&files, quick, &folders)
+        }
+        Command::Check { files, quick } => {
+            for file in &files {
+                print!("{}", check::describe(&plan::plan(file, quick)?));
+            }
+            Ok(true)
+        }
+        Command::Compare { ids, folders } => {
+            let ids = if ids.is_empty() { golden_ids(&folders.golden)? } else { ids };
+            compare_all(&ids, &folders)
+        }
+        Command::List { experiments, folders } => list(&experiments, &folders),
+    }
+}
+
+/// Plans all files before running any, so that a slip in the last one shows at once.
+fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> {
+    let started = Instant::now();
+    let plans: Vec<Plan> =
+        files.iter().map(|file| plan::plan(file, quick)).collect::<Result<_>>()?;
+    let mut judged: Vec<(String, Vec<Claim>, Duration)> = Vec::new();
+    for plan in &plans {
+        check::warn(plan);
+        let started = Instant::now();
+        let found = findings::find(plan, &Stages::new(&plan.id))?;
+        let claims = claims::judge(plan, &found)?;
+        let place = results::write(plan, &found, claims.clone(), started, &folders.results)?;
+        eprintln!("{}: {} in {}", plan.id, place.display(), seconds(started.elapsed()));
+        judged.push((plan.id.clone(), claims, started.elapsed()));
+    }
+    println!("{}", table::claims(judged.iter().map(|(id, claims, _)| (id.as_str(), &claims[..]))));
+    let all = || judged.iter().flat_map(|(_, claims, _)| claims);
+    for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
+        println!("{}: {}", claim.name.replace('_', " "), claim.reason);
+    }
+    let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
+    println!(
+        "{} claims hold, {} differ as known, {} differ; {}",
+        count(Verdict::Holds),
+        count(Verdict::DiffersAsKnown),
+        count(Verdict::Differs),
+        seconds(started.elapsed())
+    );
+    let ids: Vec<String> = plans.iter().map(|plan| plan.id.clone()).collect();
+    let golden = compare_all(&ids, folders)?;
+    Ok(golden && count(Verdict::Differs) == 0)
+}
+
+fn compare_all(ids: &[String], folders: &Folders) -> Result<bool> {
+    let mut all_hold = true;
+    for id in ids {
+        let Some(comparison) = compare::compare(id, &folders.results, &folders.golden)? else {
+            println!("{id}: no golden output to compare with");
+            continue;
+        };
+        let verdict = if comparison.holds() { "holds" } else { "differs" };
+        println!("{id}: the comparison with the golden output {verdict}");
+        for line in comparison.lines() {
+            println!("    {line}");
+        }
+        all_hold &= comparison.holds();
+    }
+    Ok(all_hold)
+}
+
+fn golden_ids(golden: &Path) -> Result<Vec<String>> {
+    let entries = std::fs::read_dir(golden)
+        .map_err(|error| Problem::from_error("cannot be read", error).in_file(golden))?;
+    let with_summary = |path: &PathBuf| path.join("summary.json").exists();
+    let mut ids: Vec<String> = entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(with_summary)
+        .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    ids.sort();
+    Ok(ids)
+}
+
+fn list(experiments: &Path, folders: &Folders) -> Result<bool> {
+    let entries = std::fs::read_dir(experiments)
+        .map_err(|error| Problem::from_error("cannot be read", error).in_file(experiments))?;
+    let is_toml = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "toml");
+    let mut files: Vec<PathBuf> =
+        entries.flatten().map(|entry| entry.path()).filter(is_toml).collect();
+    files.sort();
+    if files.is_empty() {
+        return Err(Problem::new("holds no experiment files").in_file(experiments));
+    }
+    for file in files {
+        let title = match load::experiment(&file) {
+            Ok(experiment) => experiment.title,
+            Err(problem) => format!("cannot be read: {problem}"),
+        };
+        let id = file.file_stem().unwrap_or_default().to_string_lossy();
+        let done = folders.results.join(id.as_ref()).join("summary.json").exists();
+        println!("{:<40} {}{title}", file.display(), if done { "[results] " } else { "" });
+    }
+    Ok(true)
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.1} s", time.as_secs_f64())
+}

@@ -1,0 +1,333 @@
+//! The results folder against the golden outputs: which quantity, expected, obtained, allowed.
+//!
+//! Deterministic quantities compare tightly, statistical ones within [`BANDS`] standard errors. The
+//! kernel's arithmetic is the same everywhere, so any difference at all is worth a line; the band
+//! decides whether it is a failure.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Map, Value};
+
+use crate::problem::{Problem, Result};
+
+/// Width of a band in standard errors.
+const BANDS: f64 = 5.0;
+/// Relative accuracy of eigenvalues across solvers and machines.
+const EIGENVALUES: f64 = 1e-9;
+/// Most failures shown of one kind.
+const SHOWN: usize = 6;
+
+/// How a summary differs from its golden output.
+#[derive(Default)]
+pub struct Comparison {
+    failures: BTreeMap<String, Vec<String>>,
+    /// Differences inside their bands: how many, and the largest share of its band.
+    within: BTreeMap<String, (usize, f64)>,
+}
+
+impl Comparison {
+    pub fn holds(&self) -> bool {
+        self.failures.is_empty()
+    }
+
+    /// One line a finding, failures first.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (kind, failures) in &self.failures {
+            lines.extend(failures.iter().take(SHOWN).cloned());
+            if failures.len() > SHOWN {
+                lines.push(format!("… and {} more of {kind}", failures.len() - SHOWN));
+            }
+        }
+        for (kind, (count, share)) in &self.within {
+            let values = if *count == 1 { "value differs" } else { "values differ" };
+            lines.push(match share {
+                0.0 => format!("{kind}: {count} {values}; not judged"),
+                share => {
+                    format!("{kind}: {count} {values} within the band, by at most {share:.2} of it")
+                }
+            });
+        }
+        lines
+    }
+}
+
+/// Compares `results/<id>/summary.json` with `golden/<id>/summary.json`; none without a golden one.
+pub fn compare(id: &str, results: &Path, golden: &Path) -> Result<Option<Comparison>> {
+    let path = golden.join(id).join("summary.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let expected = read(&path)?;
+    let obtained = read(&results.join(id).join("summary.json"))?;
+    Ok(Some(compare_summaries(&expected, &obtained)))
+}
+
+fn read(path: &Path) -> Result<Value> {
+    let text = fs::read_to_string(path).map_err(|error| {
+        Problem::from_error("cannot be read", error).in_file(path).hint("`eigensync run` writes it")
+    })?;
+    serde_json::from_str(&text)
+        .map_err(|error| Problem::from_error("is not JSON", error).in_file(path))
+}
+
+fn compare_summaries(expected: &Value, obtained: &Value) -> Comparison {
+    let mut walk = Walk { expected, obtained, comparison: Comparison::default() };
+    let empty = Map::new();
+    walk.value("", "", [expected, obtained], [&empty, &empty]);
+    walk.comparison
+}
+
+/// How a quantity is judged.
+enum Rule {
+    Exact,
+    /// Within this absolute distance.
+    Band(f64),
+    /// A difference is mentioned, and no more.
+    Note,
+    Ignore,
+}
+
+struct Walk<'a> {
+    expected: &'a Value,
+    obtained: &'a Value,
+    comparison: Comparison,
+}
+
+type Pair<'a> = [&'a Value; 2];
+type Siblings<'a> = [&'a Map<String, Value>; 2];
+
+impl Walk<'_> {
+    /// Compares two values at a path; `kind` is the path with its indices left out, and `siblings`
+    /// the objects around them.
+    fn value(&mut self, path: &str, kind: &str, [expected, obtained]: Pair, siblings: Siblings) {
+        match (expected, obtained) {
+            (Value::Object(a), Value::Object(b)) => self.objects(path, kind, [a, b]),
+            (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+                for (index, pair) in a.iter().zip(b).enumerate() {
+                    let path = format!("{path}[{index}]");
+                    self.value(&path, &format!("{kind}[]"), [pair.0, pair.1], siblings);
+                }
+            }
+            _ if expected == obtained => {}
+            _ => self.differ(path, kind, [expected, obtained], siblings),
+        }
+    }
+
+    fn objects(&mut self, path: &str, kind: &str, [a, b]: Siblings) {
+        let join = |name: &str, to: &str| {
+            if to.is_empty() { name.to_owned() } else { format!("{to}.{name}") }
+        };
+        let missing = a.keys().filter(|key| !b.contains_key(*key));
+        let added = b.keys().filter(|key| !a.contains_key(*key));
+        for (key, what) in missing.map(|k| (k, "is missing")).chain(added.map(|k| (k, "is new"))) {
+            let kind = join(key, kind);
+            if matches!(self.rule(&kind, [a, b]), Rule::Exact | Rule::Band(_)) {
+                self.fail(&kind, format!("{} {what}", join(key, path)));
+            }
+        }
+        for (key, expected) in a {
+            if let Some(obtained) = b.get(key) {
+                self.value(&join(key, path), &join(key, kind), [expected, obtained], [a, b]);
+            }
+        }
+    }
+
+    fn differ(&mut self, path: &str, kind: &str, [expected, obtained]: Pair, siblings: Siblings) {
+        let rule = self.rule(kind, siblings);
+        let distance = match (expected.as_f64(), obtained.as_f64()) {
+            (Some(a), Some(b)) => (a - b).abs(),
+            _ => f64::INFINITY,
+        };
+        match rule {
+            Rule::Ignore => {}
+            Rule::Note => self.note(kind, 0.0),
+            Rule::Band(allowed) if distance <= allowed => self.note(kind, distance / allowed),
+            Rule::Band(allowed) => {
+                let line = format!(
+                    "{path}: expected {expected}, obtained {obtained}, allowed ± {allowed:.2e}"
+                );
+                self.fail(kind, line);
+            }
+            Rule::Exact => {
+                let (expected, obtained) = (short(expected), short(obtained));
+                self.fail(
+                    kind,
+                    format!("{path}: expected {expected}, obtained {obtained}, allowed none"),
+                );
+            }
+        }
+    }
+
+    /// The rule for a kind of quantity, with bands from the standard errors beside it.
+    fn rule(&self, kind: &str, siblings: Siblings) -> Rule {
+        let band = |error: &str| Rule::Band(BANDS * self.joint_error(siblings, error));
+        match kind {
+            "eigenvalues[]" => Rule::Band(EIGENVALUES * self.largest_eigenvalue()),
+            "critical_couplings[].lambda" => Rule::Band(EIGENVALUES * self.largest_eigenvalue()),
+            "msf.lyapunov_isolated" => band("lyapunov_isolated_standard_error"),
+            "msf.sigma_c" | "msf.zeros[].sigma" | "critical_couplings[].epsilon" => {
+                band("standard_error")
+            }
+            "msf.stable[][]" => Rule::Band(BANDS * self.largest_zero_error()),
+            "cascade[].epsilon[]" => Rule::Band(BANDS * self.largest_coupling_error()),
+            "cascade[].simulated_onset.mean" => {
+                let spread = BANDS * self.joint_error(siblings, "spread");
+                Rule::Band(spread + 2.0 * self.widest_step())
+            }
+            "simulations[].error_to_reference[].mean"
+            | "simulations[].error_within_clusters[].mean" => band("standard_error"),
+            _ if kind.starts_with("provenance") || kind.starts_with("spectrum.largest") => {
+                Rule::Ignore
+            }
+            "spectrum.tolerance" => Rule::Ignore,
+            "shortened" => Rule::Note,
+            _ if kind.starts_with("claims") || kind.ends_with("standard_error") => Rule::Note,
+            _ if kind.ends_with("spread") || kind.contains("of_seeds") => Rule::Note,
+            _ if kind.starts_with("simulations[].clusters") => Rule::Note,
+            "msf.confidence_interval[]" => Rule::Note,
+            _ => Rule::Exact,
+        }
+    }
+
+    /// Standard errors of both sides added in squares, the expected one widened when the obtained run
+    /// was shortened: its averages are over less time than the golden ones.
+    fn joint_error(&self, [expected, obtained]: Siblings, key: &str) -> f64 {
+        let of = |side: &Map<String, Value>| side.get(key).and_then(Value::as_f64).unwrap_or(0.0);
+        (of(expected) * self.widening()).hypot(of(obtained))
+    }
+
+    fn widening(&self) -> f64 {
+        let shortened = |side: &Value| side["shortened"].as_f64().unwrap_or(1.0);
+        (shortened(self.obtained) / shortened(self.expected)).sqrt().max(1.0)
+    }
+
+    /// The largest joint standard error of one key in a list of objects.
+    fn largest_joint_error(&self, list: &str) -> f64 {
+        let entries = |side: &Value| side.pointer(list).and_then(Value::as_array).cloned();
+        let (a, b) = (entries(self.expected), entries(self.obtained));
+        let pairs = a.unwrap_or_default().into_iter().zip(b.unwrap_or_default());
+        pairs
+            .filter_map(|(a, b)| {
+                Some(self.joint_error([a.as_object()?, b.as_object()?], "standard_error"))
+            })
+            .fold(0.0, f64::max)
+    }
+
+    fn largest_zero_error(&self) -> f64 {
+        self.largest_joint_error("/msf/zeros")
+    }
+
+    fn largest_coupling_error(&self) -> f64 {
+        self.largest_joint_error("/critical_couplings")
+    }
+
+    fn largest_eigenvalue(&self) -> f64 {
+        let values = self.expected["eigenvalues"].as_array();
+        values.into_iter().flatten().filter_map(Value::as_f64).fold(1.0, |m, x| m.max(x.abs()))
+    }
+
+    fn widest_step(&self) -> f64 {
+        let simulations = self.expected["simulations"].as_array();
+        let epsilon: Vec<f64> =
+            simulations.into_iter().flatten().filter_map(|s| s["epsilon"].as_f64()).collect();
+        epsilon.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+    }
+
+    fn fail(&mut self, kind: &str, line: String) {
+        self.comparison.failures.entry(kind.to_owned()).or_default().push(line);
+    }
+
+    fn note(&mut self, kind: &str, share: f64) {
+        let note = self.comparison.within.entry(kind.to_owned()).or_default();
+        note.0 += 1;
+        note.1 = note.1.max(share);
+    }
+}
+
+/// A value on one line of bearable length.
+fn short(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(80) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn summary() -> Value {
+        json!({
+            "shortened": 1.0,
+            "experiment": { "sweep": { "step": 0.01 } },
+            "eigenvalues": [0.0, -2.0, -3.0],
+            "msf": { "sigma_c": 8.17, "standard_error": 0.004, "zeros": [{ "sigma": 8.17, "standard_error": 0.004 }] },
+            "cascade": [{ "epsilon": [2.7, 4.1], "clusters": [["1", "2"]] }],
+            "simulations": [{ "epsilon": 1.0, "error_within_clusters": [{ "mean": 9.0, "standard_error": 0.1 }] }],
+            "provenance": { "wall_time_s": 1.0 },
+        })
+    }
+
+    fn after(change: impl FnOnce(&mut Value)) -> Comparison {
+        let mut changed = summary();
+        change(&mut changed);
+        compare_summaries(&summary(), &changed)
+    }
+
+    #[test]
+    fn equal_summaries_need_no_line() {
+        assert!(after(|_| ()).lines().is_empty());
+        assert!(after(|s| s["provenance"]["wall_time_s"] = json!(2.0)).lines().is_empty());
+    }
+
+    #[test]
+    fn a_changed_parameter_is_named() {
+        let comparison = after(|s| s["experiment"]["sweep"]["step"] = json!(0.02));
+        assert!(!comparison.holds());
+        let line = "experiment.sweep.step: expected 0.01, obtained 0.02, allowed none";
+        assert_eq!(comparison.lines(), [line]);
+    }
+
+    #[test]
+    fn eigenvalues_are_judged_to_nine_digits() {
+        assert!(after(|s| s["eigenvalues"][1] = json!(-2.000_000_001)).holds());
+        assert!(!after(|s| s["eigenvalues"][1] = json!(-2.000_001)).holds());
+    }
+
+    #[test]
+    fn statistical_values_are_judged_by_five_joint_standard_errors() {
+        let shift = |by: f64| after(|s| s["msf"]["sigma_c"] = json!(8.17 + by));
+        let band = 5.0 * 0.004 * 2f64.sqrt();
+        assert!(shift(0.9 * band).holds());
+        assert!(!shift(1.1 * band).holds());
+        let lines = shift(0.5 * band).lines();
+        assert_eq!(lines, ["msf.sigma_c: 1 value differs within the band, by at most 0.50 of it"]);
+    }
+
+    #[test]
+    fn a_moved_cluster_or_a_missing_quantity_is_a_failure() {
+        assert!(!after(|s| s["cascade"][0]["clusters"][0][1] = json!("3")).holds());
+        assert!(!after(|s| _ = s.as_object_mut().unwrap().remove("eigenvalues")).holds());
+        assert!(!after(|s| s["eigenvalues"] = json!([0.0, -2.0])).holds());
+        assert!(!after(|s| s["msf"]["sigma_c"] = Value::Null).holds());
+    }
+
+    #[test]
+    fn a_shortened_run_has_wider_bands() {
+        let error = |by: f64, shortened: f64| {
+            after(|s| {
+                s["shortened"] = json!(shortened);
+                s["simulations"][0]["error_within_clusters"][0]["mean"] = json!(9.0 + by);
+            })
+            .holds()
+        };
+        assert!(!error(1.5, 1.0));
+        assert!(error(1.5, 10.0));
+    }
+}

@@ -1,0 +1,190 @@
+//! The figure of an experiment: the panels of the paper's Fig. 1 from what was found. The network
+//! coloured by clusters, errors against ε with the predicted critical couplings marked, and Λ(σ).
+
+use std::ops::Range;
+
+use crate::figures::{
+    Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
+    NetworkPanel, Node, Panel, Placement, Scale, Series, Spread, SpreadStyle, msf_panel,
+};
+use crate::findings::Findings;
+use crate::plan::{Plan, Sweep};
+use crate::simulated::{OverSeeds, Simulated};
+use crate::spec::{ErrorScale, Layout, SpreadKind};
+
+/// Resolution of the PNG: what journals ask for.
+pub const DOTS_PER_INCH: f64 = 300.0;
+
+/// The figure: the network above Λ(σ) at the left, the sweep (if there is one) at the right.
+pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
+    let letter = |number: usize| format!("({}{number})", plan.figure().letter);
+    let left = |row: usize, number: usize, content: Content| Panel {
+        letter: letter(number),
+        rows: row..row + 1,
+        columns: 0..1,
+        content,
+    };
+    let clusters = shown_clusters(plan, findings);
+    let network = network(plan, &clusters);
+    let mut panels = vec![left(0, 1, Content::Network(network))];
+    let mut columns = vec![1.0];
+    if let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) {
+        let content = Content::Lines(errors(plan, sweep, simulated, findings));
+        let rows: Range<usize> = 0..2;
+        panels.push(Panel { letter: letter(2), rows, columns: 1..2, content });
+        columns.push(1.7);
+    }
+    let number = panels.len() + 1;
+    panels.push(left(1, number, Content::Lines(msf(findings))));
+    Figure {
+        title: plan.experiment.title.clone(),
+        width_mm: if columns.len() > 1 { 170.0 } else { 75.0 },
+        height_mm: 100.0,
+        columns,
+        rows: vec![1.0, 0.95],
+        panels,
+    }
+}
+
+/// The clusters that colour the network: those of the experiment, else the first predicted state
+/// below global synchronisation.
+fn shown_clusters(plan: &Plan, findings: &Findings) -> Vec<Vec<usize>> {
+    let own = plan.sweep.as_ref().map(|sweep| sweep.observables.clusters.clone());
+    own.filter(|clusters| !clusters.is_empty()).unwrap_or_else(|| {
+        let below = findings.cascade.iter().find(|state| state.clusters.n_clusters() > 1);
+        below.map_or_else(Vec::new, |state| state.clusters.nontrivial())
+    })
+}
+
+fn network(plan: &Plan, clusters: &[Vec<usize>]) -> NetworkPanel {
+    let network = &plan.network;
+    let cluster = |node: usize| clusters.iter().position(|cluster| cluster.contains(&node));
+    let nodes = network.labels().iter().enumerate();
+    let links = network.adjacency().outer_iterator().enumerate().flat_map(|(from, row)| {
+        let row: Vec<_> = row.iter().map(|(to, &weight)| Link { from, to, weight }).collect();
+        row.into_iter().filter(|link| link.from < link.to)
+    });
+    NetworkPanel {
+        nodes: nodes.map(|(i, label)| Node { label: label.clone(), cluster: cluster(i) }).collect(),
+        links: links.collect(),
+        placement: match &plan.figure().layout {
+            Layout::Circle => Placement::Circle,
+            Layout::Force => Placement::Stress,
+            Layout::Grouped => Placement::Grouped,
+            Layout::At(positions) => Placement::At(positions.clone()),
+        },
+        cluster_labels: (1..=clusters.len())
+            .map(|m| Label::math("C").subscript(&m.to_string()))
+            .collect(),
+    }
+}
+
+fn msf(findings: &Findings) -> LinePanel {
+    let msf = &findings.msf;
+    msf_panel(&MsfCurve {
+        sigma: msf.sigma.clone(),
+        lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),
+        standard_error: msf.lambda.iter().map(|lambda| lambda.standard_error).collect(),
+        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+    })
+}
+
+/// δx_i to the reference node or δx^c_m within clusters, whichever the experiment asks for.
+fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings) -> LinePanel {
+    let labels = plan.network.labels();
+    let observables = &sweep.observables;
+    let mut series = Vec::new();
+    if observables.clusters.is_empty() {
+        let nodes = (0..labels.len()).filter(|node| Some(*node) != observables.reference);
+        let nodes = nodes.filter(|_| observables.reference.is_some());
+        for (style, node) in nodes.enumerate() {
+            let label = Label::math("δx").subscript(&labels[node]);
+            series.push(curve(plan, label, style, |at| {
+                simulated.over_seeds(at, |errors| errors.to_reference[node])
+            }));
+        }
+    }
+    for m in 0..observables.clusters.len() {
+        let label = Label::math("δx").subscript(&(m + 1).to_string()).superscript("c");
+        series.push(curve(plan, label, m, |at| {
+            simulated.over_seeds(at, |errors| errors.within_clusters[m])
+        }));
+    }
+    let y_label = if observables.clusters.is_empty() {
+        Label::math("δx").subscript("i")
+    } else {
+        Label::math("δx").subscript("m").superscript("c")
+    };
+    let (first, last) = (sweep.epsilon[0], sweep.epsilon[sweep.epsilon.len() - 1]);
+    LinePanel {
+        x_label: Label::math("ε"),
+        y_label,
+        y_scale: match plan.figure().error_scale {
+            ErrorScale::Linear => Scale::Linear,
+            ErrorScale::Log => Scale::Log,
+        },
+        series,
+        markers: vec![critical(plan, findings, [first, last]), seen_by_the_source(plan)],
+        ..LinePanel::default()
+    }
+}
+
+/// A curve over ε with the spread over seeds.
+fn curve(
+    plan: &Plan,
+    label: Label,
+    style: usize,
+    at: impl Fn(usize) -> Option<OverSeeds>,
+) -> Series {
+    let x = plan.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.epsilon.clone());
+    let points: Vec<Option<OverSeeds>> = (0..x.len()).map(at).collect();
+    // Where every seed escaped the curve has a gap.
+    let of = |value: &dyn Fn(&OverSeeds) -> f64| {
+        points.iter().map(|point| point.as_ref().map_or(f64::NAN, value)).collect()
+    };
+    Series {
+        label,
+        style,
+        x,
+        y: of(&|point| point.mean),
+        spread: Some(Spread {
+            lower: of(&|point| (point.mean - point.spread).max(0.0)),
+            upper: of(&|point| point.mean + point.spread),
+            drawn: match plan.figure().spread {
+                SpreadKind::Band => SpreadStyle::Band,
+                SpreadKind::Bars => SpreadStyle::Bars,
+            },
+        }),
+    }
+}
+
+/// The predicted critical couplings within the sweep, one for each run of equal eigenvalues.
+fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
+    let wanted =
+        |mode: usize| plan.figure().mark_modes.as_ref().is_none_or(|modes| modes.contains(&mode));
+    let leads = |mode: usize| findings.spectrum.eigenspaces.iter().any(|e| e.start + 1 == mode);
+    let markers = findings
+        .critical
+        .iter()
+        .filter(|critical| leads(critical.mode) && wanted(critical.mode))
+        .filter(|critical| (first..=last).contains(&critical.epsilon))
+        .map(|critical| Marker {
+            x: critical.epsilon,
+            label: Some(Label::math("ε").subscript(&critical.mode.to_string())),
+        });
+    MarkerGroup {
+        style: MarkerStyle::Predicted,
+        legend: Some(Label::text("predicted")),
+        markers: markers.collect(),
+    }
+}
+
+/// The transitions that the source saw in its own simulations.
+fn seen_by_the_source(plan: &Plan) -> MarkerGroup {
+    let transitions = plan.figure().source_transitions.iter();
+    MarkerGroup {
+        style: MarkerStyle::Reference,
+        legend: Some(Label::text("paper")),
+        markers: transitions.map(|&x| Marker { x, label: None }).collect(),
+    }
+}

@@ -1,0 +1,241 @@
+//! Line panel: quantities against one variable, such as errors δx_i against the coupling ε, with
+//! the spread over seeds, vertical markers at critical couplings, and notes at single points.
+//!
+//! A value that is not finite, or not positive on a logarithmic axis, leaves a gap in its line.
+
+use super::axis::{self, Axis, Scale, Tick};
+use super::canvas::{Anchor, Canvas, Point, Rect};
+use super::error::FigureError;
+use super::font::CAP_HEIGHT;
+use super::label::Label;
+use super::legend::{self, Entry};
+use super::markers::{self, MarkerGroup};
+use super::series::{self, Series};
+use super::style::{
+    AXIS_WIDTH, INK, LABEL_SIZE, LINK_INK, NOTE_SIZE, SHADE, Stroke, TICK_SIZE, series_style,
+};
+
+const TICK_LENGTH: f64 = 3.0;
+/// Room under the frame for numbers and the name of the axis.
+const BELOW: f64 = 28.5;
+/// Room at the right, half a number at the end of the axis.
+const RIGHT: f64 = 8.0;
+/// Room above the frame where there are no labels of markers.
+const ABOVE: f64 = 8.0;
+/// Least distance between numbers along x and along y.
+const X_SPACING: f64 = 28.0;
+const Y_SPACING: f64 = 16.0;
+
+/// Curves in a frame.
+#[derive(Clone, Debug, Default)]
+pub struct LinePanel {
+    /// Name of the horizontal axis.
+    pub x_label: Label,
+    /// Name of the vertical axis.
+    pub y_label: Label,
+    /// Scale of the vertical axis.
+    pub y_scale: Scale,
+    /// Range of x; none for what the series cover, with a small margin.
+    pub x_range: Option<[f64; 2]>,
+    /// Range of y; none for what the series and their spread cover.
+    pub y_range: Option<[f64; 2]>,
+    /// Whether a thin line marks y = 0.
+    pub zero_line: bool,
+    /// The curves, at least one with a point that can be drawn.
+    pub series: Vec<Series>,
+    /// Vertical lines.
+    pub markers: Vec<MarkerGroup>,
+    /// Labelled points.
+    pub notes: Vec<Note>,
+    /// Spans of x with a grey background, [from, to].
+    pub shaded: Vec<[f64; 2]>,
+}
+
+/// A dot with a label beside it.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// Where it stands, (x, y). A note outside the ranges is left out.
+    pub at: [f64; 2],
+    /// What it says.
+    pub label: Label,
+}
+
+/// The two axes laid over a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Axes {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+}
+
+impl Axes {
+    /// Where a point stands on the page; none for what cannot be drawn.
+    pub(super) fn at(&self, x: f64, y: f64) -> Option<Point> {
+        Some([self.x.at(x)?, self.y.at(y)?])
+    }
+}
+
+impl LinePanel {
+    /// Width that numbers and name of the y axis take in a cell of this height.
+    pub(super) fn left_margin(&self, height: f64, panel: &str) -> Result<f64, FigureError> {
+        let [_, y_range] = self.ranges(panel)?;
+        let frame_height = height - self.above() - BELOW;
+        let numbers = Axis::new(self.y_scale, y_range, [frame_height.max(1.0), 0.0]);
+        let ticks = numbers.ticks(Y_SPACING);
+        let labels = ticks.iter().filter_map(|t| t.label.as_ref());
+        let widest = labels.map(|l| l.width(TICK_SIZE)).fold(0.0, f64::max);
+        Ok(widest + 1.45 * LABEL_SIZE + 7.0)
+    }
+
+    /// Draws the panel into a cell, its frame `left_margin` from the left. The legend stands in
+    /// the frame where it hides nothing, else above it.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        cell: Rect,
+        left_margin: f64,
+        panel: &str,
+    ) -> Result<(), FigureError> {
+        let ranges = self.ranges(panel)?;
+        let mut frame = Rect {
+            left: cell.left + left_margin,
+            top: cell.top + self.above(),
+            right: cell.right - RIGHT,
+            bottom: cell.bottom - BELOW,
+        };
+        check_room(frame, panel)?;
+        let entries = self.entries();
+        let place = self.legend_place(&entries, frame, self.axes(ranges, frame));
+        if place.is_none() && !entries.is_empty() {
+            let (places, height) = legend::strip(&entries, frame.width());
+            for (entry, [left, middle]) in entries.iter().zip(places) {
+                legend::draw_entry(canvas, entry, [frame.left + left, cell.top + middle]);
+            }
+            frame.top += height;
+            check_room(frame, panel)?;
+        }
+        let axes = self.axes(ranges, frame);
+        self.draw_data(canvas, frame, axes);
+        markers::draw_labels(canvas, &self.markers, &axes.x, frame);
+        if let (Some(place), false) = (place, entries.is_empty()) {
+            legend::draw_inside(canvas, &entries, place, frame);
+        }
+        self.draw_notes(canvas, frame, axes);
+        self.draw_frame(canvas, cell, frame, axes);
+        Ok(())
+    }
+
+    fn above(&self) -> f64 {
+        let has_labels = self.markers.iter().flat_map(|g| &g.markers).any(|m| m.label.is_some());
+        if has_labels { markers::ROW_HEIGHT } else { ABOVE }
+    }
+
+    /// Ranges of x and y in transformed values.
+    fn ranges(&self, panel: &str) -> Result<[[f64; 2]; 2], FigureError> {
+        series::check(&self.series, self.y_scale, panel)?;
+        let x_values = self.series.iter().flat_map(|s| s.x.iter().copied());
+        let zero = self.zero_line.then_some(0.0);
+        let y_values = self.series.iter().flat_map(Series::y_values).chain(zero);
+        let empty = || FigureError::Empty { panel: panel.into(), what: "series" };
+        let x = axis::range(x_values, self.x_range, Scale::Linear, 0.02, panel)?;
+        let y = axis::range(y_values, self.y_range, self.y_scale, 0.04, panel)?;
+        Ok([x.ok_or_else(empty)?, y.ok_or_else(empty)?])
+    }
+
+    fn axes(&self, [x, y]: [[f64; 2]; 2], frame: Rect) -> Axes {
+        Axes {
+            x: Axis::new(Scale::Linear, x, [frame.left, frame.right]),
+            y: Axis::new(self.y_scale, y, [frame.bottom, frame.top]),
+        }
+    }
+
+    /// Entries of the legend: curves and groups of markers that have a name.
+    fn entries(&self) -> Vec<Entry<'_>> {
+        let curves = self.series.iter().filter(|s| !s.label.is_empty()).map(|s| {
+            let (stroke, shape) = series_style(s.style);
+            Entry { stroke, shape: Some(shape), label: &s.label }
+        });
+        let lines = self.markers.iter().filter_map(|g| {
+            let label = g.legend.as_ref()?;
+            Some(Entry { stroke: markers::stroke(g.style), shape: None, label })
+        });
+        curves.chain(lines).collect()
+    }
+
+    fn legend_place(&self, entries: &[Entry], frame: Rect, axes: Axes) -> Option<Point> {
+        let mut taken = self.drawn_points(axes);
+        let noted = self.notes.iter().filter_map(|n| axes.at(n.at[0], n.at[1]));
+        taken.extend(noted.flat_map(|[x, y]| [-40.0, -20.0, 0.0, 20.0, 40.0].map(|d| [x + d, y])));
+        let lines: Vec<f64> =
+            markers::visible(&self.markers, &axes.x).iter().map(|&(x, ..)| x).collect();
+        legend::free_place(legend::size(entries), frame, &taken, &lines)
+    }
+
+    /// Points along every curve and the edges of its spread, a few points of length apart.
+    fn drawn_points(&self, axes: Axes) -> Vec<Point> {
+        self.series.iter().flat_map(|s| series::points_along(s, axes)).collect()
+    }
+
+    fn draw_data(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
+        canvas.clipped(frame, |canvas| {
+            for &[from, to] in &self.shaded {
+                if let (Some(left), Some(right)) = (axes.x.at(from), axes.x.at(to)) {
+                    canvas.rect(Rect { left, right, ..frame }, SHADE);
+                }
+            }
+            if let (true, Some(y)) = (self.zero_line, axes.y.at(0.0)) {
+                let thin = Stroke::solid(LINK_INK, AXIS_WIDTH);
+                canvas.line([frame.left, y], [frame.right, y], thin);
+            }
+            markers::draw_lines(canvas, &self.markers, &axes.x, frame);
+            series::draw(canvas, &self.series, axes);
+        });
+    }
+
+    fn draw_frame(&self, canvas: &mut Canvas, cell: Rect, frame: Rect, axes: Axes) {
+        let ink = Stroke::solid(INK, AXIS_WIDTH);
+        canvas.frame(frame, ink);
+        for Tick { at, label } in axes.x.ticks(X_SPACING) {
+            let length = if label.is_some() { TICK_LENGTH } else { TICK_LENGTH / 2.0 };
+            canvas.line([at, frame.bottom], [at, frame.bottom - length], ink);
+            if let Some(label) = label {
+                let baseline = frame.bottom + 3.5 + CAP_HEIGHT * TICK_SIZE;
+                canvas.label(&label, [at, baseline], TICK_SIZE, Anchor::Middle);
+            }
+        }
+        for Tick { at, label } in axes.y.ticks(Y_SPACING) {
+            let length = if label.is_some() { TICK_LENGTH } else { TICK_LENGTH / 2.0 };
+            canvas.line([frame.left, at], [frame.left + length, at], ink);
+            if let Some(label) = label {
+                let baseline = at + CAP_HEIGHT * TICK_SIZE / 2.0;
+                canvas.label(&label, [frame.left - 3.5, baseline], TICK_SIZE, Anchor::End);
+            }
+        }
+        let middle = [(frame.left + frame.right) / 2.0, (frame.top + frame.bottom) / 2.0];
+        let x_at = [middle[0], frame.bottom + 15.0 + CAP_HEIGHT * LABEL_SIZE];
+        canvas.label(&self.x_label, x_at, LABEL_SIZE, Anchor::Middle);
+        let y_at = [cell.left + 1.1 * LABEL_SIZE, middle[1]];
+        canvas.label_upwards(&self.y_label, y_at, LABEL_SIZE);
+    }
+
+    fn draw_notes(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
+        let taken = self.drawn_points(axes);
+        for note in self.notes.iter().filter(|n| axes.x.holds(n.at[0]) && axes.y.holds(n.at[1])) {
+            let Some(at) = axes.at(note.at[0], note.at[1]) else { continue };
+            canvas.circle(at, 2.0, INK, Stroke::solid("#ffffff", 0.5));
+            let height = 1.1 * NOTE_SIZE;
+            let size = [note.label.width(NOTE_SIZE), height];
+            let [left, top] = legend::beside(at, size, frame, &taken);
+            let baseline = top + 0.8 * height;
+            canvas.label(&note.label, [left, baseline], NOTE_SIZE, Anchor::Start);
+        }
+    }
+}
+
+/// A frame too small to read is an error rather than a blot.
+fn check_room(frame: Rect, panel: &str) -> Result<(), FigureError> {
+    let (width, height) = (frame.width(), frame.height());
+    if width < 30.0 || height < 30.0 {
+        return Err(FigureError::TooSmall { panel: panel.into(), width, height });
+    }
+    Ok(())
+}

@@ -1,0 +1,181 @@
+//! Figures: panels with letters in a grid, as SVG text and PNG bytes, from plain data.
+//!
+//! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
+//! (with `series`, `axis`, `markers` and `legend`), `network` (with `placement` and `stress`), `msf`; a new kind
+//! is one more file and one more [`Content`]. They draw through `canvas`, which writes SVG in
+//! points, with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG.
+
+mod axis;
+mod canvas;
+mod error;
+mod font;
+mod label;
+mod legend;
+mod lines;
+mod markers;
+mod msf;
+mod network;
+mod placement;
+mod raster;
+mod series;
+mod stress;
+mod style;
+
+pub use axis::Scale;
+pub use error::FigureError;
+pub use label::Label;
+pub use lines::LinePanel;
+pub use markers::{Marker, MarkerGroup, MarkerStyle};
+pub use msf::{MsfCurve, msf_panel};
+pub use network::{Link, NetworkPanel, Node};
+pub use placement::Placement;
+pub use raster::png;
+pub use series::{Series, Spread, SpreadStyle};
+
+use std::ops::Range;
+
+use canvas::{Anchor, Canvas, Rect};
+use font::CAP_HEIGHT;
+use style::LETTER_SIZE;
+
+/// Points of 1/72 inch in a millimetre.
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
+/// Space between neighbouring columns and rows, in points.
+const COLUMN_GAP: f64 = 8.0;
+const ROW_GAP: f64 = 6.0;
+/// Margin around the page.
+const EDGE: f64 = 2.0;
+
+/// Panels in a grid.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// For readers that show it, and for those who cannot see the figure.
+    pub title: String,
+    /// Width on paper in mm; text keeps its size (7 pt and more) whatever the width.
+    pub width_mm: f64,
+    /// Height on paper in mm.
+    pub height_mm: f64,
+    /// Widths of the columns, as shares of the whole.
+    pub columns: Vec<f64>,
+    /// Heights of the rows, as shares of the whole.
+    pub rows: Vec<f64>,
+    /// The panels, drawn in this order.
+    pub panels: Vec<Panel>,
+}
+
+/// A panel and its place in the grid.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Stands in its upper left corner: "(a1)"; empty for none.
+    pub letter: String,
+    /// Rows it covers, from 0.
+    pub rows: Range<usize>,
+    /// Columns it covers, from 0.
+    pub columns: Range<usize>,
+    /// What it shows.
+    pub content: Content,
+}
+
+/// What a panel shows.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Curves in a frame.
+    Lines(LinePanel),
+    /// Nodes and links.
+    Network(NetworkPanel),
+}
+
+impl Figure {
+    /// The figure as SVG text; the same figure always gives the same bytes.
+    ///
+    /// # Errors
+    /// A [`FigureError`] that names the panel: data that are empty, of unequal lengths or out of
+    /// range, or a grid with too little room.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        self.check()?;
+        let [width, height] = [self.width_mm, self.height_mm].map(|mm| mm * POINTS_PER_MM);
+        let mut canvas = Canvas::new(width, height, &self.title);
+        let columns = spans(&self.columns, width, COLUMN_GAP);
+        let rows = spans(&self.rows, height, ROW_GAP);
+        let cells: Vec<Rect> = self.panels.iter().map(|p| cell(p, &columns, &rows)).collect();
+        let margins = self.left_margins(&cells)?;
+        for ((panel, &cell), margin) in self.panels.iter().zip(&cells).zip(margins) {
+            let letter = &panel.letter;
+            match &panel.content {
+                Content::Lines(lines) => lines.draw(&mut canvas, cell, margin, letter)?,
+                Content::Network(network) => network.draw(&mut canvas, cell, letter)?,
+            }
+            let at = [cell.left, cell.top + CAP_HEIGHT * LETTER_SIZE + 1.0];
+            canvas.label(&Label::text(letter.as_str()), at, LETTER_SIZE, Anchor::Start);
+        }
+        Ok(canvas.finish())
+    }
+
+    /// Room at the left of each panel, the same for all line panels that begin in one column, so
+    /// that their frames stand flush.
+    fn left_margins(&self, cells: &[Rect]) -> Result<Vec<f64>, FigureError> {
+        let mut of_column = vec![0.0_f64; self.columns.len()];
+        for (panel, cell) in self.panels.iter().zip(cells) {
+            if let Content::Lines(lines) = &panel.content {
+                let margin = &mut of_column[panel.columns.start];
+                *margin = margin.max(lines.left_margin(cell.height(), &panel.letter)?);
+            }
+        }
+        Ok(self.panels.iter().map(|p| of_column[p.columns.start]).collect())
+    }
+
+    fn check(&self) -> Result<(), FigureError> {
+        let is_length = |x: &f64| x.is_finite() && *x > 0.0;
+        let (width, height) = (self.width_mm, self.height_mm);
+        if !is_length(&width) || !is_length(&height) {
+            return Err(FigureError::BadSize { width, height });
+        }
+        if self.panels.is_empty() {
+            return Err(FigureError::NoPanels);
+        }
+        for shares in [&self.columns, &self.rows] {
+            if !shares.iter().all(is_length) {
+                return Err(FigureError::BadShares { shares: shares.clone() });
+            }
+        }
+        let (n_rows, n_columns) = (self.rows.len(), self.columns.len());
+        let fits = |r: &Range<usize>, n| r.start < r.end && r.end <= n;
+        for p in &self.panels {
+            if !fits(&p.rows, n_rows) || !fits(&p.columns, n_columns) {
+                return Err(FigureError::OutsideGrid {
+                    panel: p.letter.clone(),
+                    rows: (p.rows.start, p.rows.end),
+                    columns: (p.columns.start, p.columns.end),
+                    n_rows,
+                    n_columns,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Start and end of each column or row on a page of this extent.
+fn spans(shares: &[f64], extent: f64, gap: f64) -> Vec<[f64; 2]> {
+    let gaps = gap * shares.len().saturating_sub(1) as f64;
+    let unit = (extent - 2.0 * EDGE - gaps) / shares.iter().sum::<f64>();
+    let mut start = EDGE;
+    let mut spans = Vec::new();
+    for share in shares {
+        spans.push([start, start + share * unit]);
+        start += share * unit + gap;
+    }
+    spans
+}
+
+fn cell(panel: &Panel, columns: &[[f64; 2]], rows: &[[f64; 2]]) -> Rect {
+    Rect {
+        left: columns[panel.columns.start][0],
+        right: columns[panel.columns.end - 1][1],
+        top: rows[panel.rows.start][0],
+        bottom: rows[panel.rows.end - 1][1],
+    }
+}
+
+#[cfg(test)]
+mod tests;

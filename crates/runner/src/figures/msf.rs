@@ -1,0 +1,81 @@
+//! Panel of the master stability function: Λ against σ with its standard error, the zero line,
+//! the stable set shaded, and every zero marked with its value.
+//!
+//! σ_k = −ελ_k is the generic coupling strength of mode k, which is damped where Λ(σ_k) < 0
+//! (Pecora & Carroll, PRL 80, 2109 (1998)).
+
+use super::label::Label;
+use super::lines::{LinePanel, Note};
+use super::series::{Series, Spread, SpreadStyle};
+
+/// What a panel of the master stability function shows.
+#[derive(Clone, Debug)]
+pub struct MsfCurve {
+    /// Generic coupling strengths σ, dimensionless.
+    pub sigma: Vec<f64>,
+    /// Largest Lyapunov exponent Λ at each σ, per model time unit.
+    pub lambda: Vec<f64>,
+    /// Standard error of each Λ.
+    pub standard_error: Vec<f64>,
+    /// Intervals of σ with Λ < 0; none for an end beyond the σ that were looked at.
+    pub stable: Vec<(f64, Option<f64>)>,
+}
+
+/// The panel: band of ± 2 standard errors, zeros labelled σ_c to two decimals.
+pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
+    let ends = |sign: f64| {
+        curve.lambda.iter().zip(&curve.standard_error).map(|(l, e)| l + sign * 2.0 * e).collect()
+    };
+    let last = curve.sigma.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let stable = curve.stable.iter();
+    LinePanel {
+        x_label: Label::math("σ"),
+        y_label: Label::math("Λ"),
+        zero_line: true,
+        series: vec![Series {
+            x: curve.sigma.clone(),
+            y: curve.lambda.clone(),
+            spread: Some(Spread { lower: ends(-1.0), upper: ends(1.0), drawn: SpreadStyle::Band }),
+            ..Series::default()
+        }],
+        notes: zeros(&curve.stable).into_iter().map(note).collect(),
+        // An open interval is shaded beyond the right edge of the frame, which cuts it.
+        shaded: stable.map(|&(from, to)| [from, to.unwrap_or(2.0 * last.max(from))]).collect(),
+        ..LinePanel::default()
+    }
+}
+
+/// Ends of the stable intervals at which Λ changes sign: all but a lower end of 0.
+fn zeros(stable: &[(f64, Option<f64>)]) -> Vec<f64> {
+    stable.iter().flat_map(|&(from, to)| [(from > 0.0).then_some(from), to]).flatten().collect()
+}
+
+fn note(zero: f64) -> Note {
+    let label = Label::math("σ").subscript("c").with_math(&format!(" = {zero:.2}"));
+    Note { at: [zero, 0.0], label }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_are_the_ends_at_which_the_sign_changes() {
+        assert_eq!(zeros(&[(8.17, None)]), [8.17]);
+        assert_eq!(zeros(&[(0.0, Some(0.5)), (1.0, Some(4.6))]), [0.5, 1.0, 4.6]);
+        assert_eq!(zeros(&[]), [0.0; 0]);
+    }
+
+    #[test]
+    fn the_band_is_two_standard_errors_to_either_side() {
+        let panel = msf_panel(&MsfCurve {
+            sigma: vec![0.0, 1.0],
+            lambda: vec![1.0, -1.0],
+            standard_error: vec![0.25, 0.5],
+            stable: vec![(0.5, None)],
+        });
+        let spread = panel.series[0].spread.as_ref().unwrap();
+        assert_eq!((&spread.lower[..], &spread.upper[..]), (&[0.5, -2.0][..], &[1.5, 0.0][..]));
+        assert!(panel.shaded[0][1] > 1.0);
+    }
+}

@@ -1,0 +1,80 @@
+//! What an experiment found: the stages of a run in order, each from those before it.
+
+use clustering::{Partition, State, merge_equal_clusters};
+use msf::{CriticalCoupling, MasterStability};
+use spectra::Spectrum;
+
+use crate::plan::{Plan, Sweep};
+use crate::problem::{Problem, Result};
+use crate::progress::Stages;
+use crate::simulated::Simulated;
+
+/// Everything computed in one run.
+pub struct Findings {
+    pub spectrum: Spectrum,
+    pub msf: MasterStability,
+    pub critical: Vec<CriticalCoupling>,
+    /// Predicted states, from large ε down; neighbours differ in their clusters.
+    pub cascade: Vec<State>,
+    pub simulated: Option<Simulated>,
+}
+
+/// Runs a plan: spectrum, MSF, prediction, simulation.
+pub fn find(plan: &Plan, stages: &Stages) -> Result<Findings> {
+    let failed = |what: &str, error: &dyn std::fmt::Display| {
+        Problem::from_error(what, error).in_file(&plan.file)
+    };
+    let spectrum = stages
+        .unmeasured("spectrum", || spectra::leading_modes(&plan.matrix, &plan.spectrum))
+        .map_err(|error| failed("the spectrum could not be computed", &error))?;
+    let msf = stages
+        .measured("msf", plan.msf_steps(), |progress| {
+            msf::master_stability(&plan.node, &plan.msf, progress)
+        })
+        .map_err(|error| failed("the master stability function could not be computed", &error))?;
+    let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
+    let states = clustering::cascade(&spectrum, &msf.stable_region(), plan.rule)
+        .map_err(|error| failed("the cascade could not be predicted", &error))?;
+    let simulated = match &plan.sweep {
+        Some(sweep) => Some(simulate(plan, sweep, stages)?),
+        None => None,
+    };
+    Ok(Findings { cascade: merge_equal_clusters(&states), spectrum, msf, critical, simulated })
+}
+
+fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
+    let simulation = dynamics::Simulation {
+        model: plan.node.model,
+        coupling: plan.node.coupling,
+        matrix: plan.matrix.matrix(),
+        method: sweep.method,
+        schedule: sweep.schedule,
+        observables: sweep.observables.clone(),
+    };
+    let runs = stages
+        .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))
+        .map_err(|error| {
+            Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
+        })?;
+    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+}
+
+impl Findings {
+    /// The clusters predicted at a coupling strength; none where the prediction does not reach.
+    pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
+        let holds = |state: &&State| {
+            epsilon > state.epsilon.0 && state.epsilon.1.is_none_or(|to| epsilon <= to)
+        };
+        self.cascade.iter().find(holds).map(|state| &state.clusters)
+    }
+
+    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.
+    pub fn predicted_loss(&self, cluster: &[usize]) -> Option<f64> {
+        let together = |state: &State| {
+            let of = state.clusters.cluster_of();
+            cluster.iter().all(|&node| of[node] == of[cluster[0]])
+        };
+        let lost = self.cascade.iter().find(|state| !together(state))?;
+        Some(lost.epsilon.1.unwrap_or(f64::INFINITY))
+    }
+}

@@ -1,0 +1,86 @@
+//! What keeps a command from running: one message with the file, the key and the way out.
+
+use std::fmt;
+use std::path::Path;
+
+/// A problem with the input or the surroundings; the command answers it and exits with status 2.
+#[derive(Debug)]
+pub struct Problem {
+    /// File, with line and column where known.
+    place: Option<String>,
+    message: String,
+    hint: Option<String>,
+}
+
+/// What most of this crate returns.
+pub type Result<T> = std::result::Result<T, Problem>;
+
+impl Problem {
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { place: None, message: message.into(), hint: None }
+    }
+
+    /// A problem with one key of an experiment file.
+    pub fn with_key(file: &Path, key: &str, message: impl fmt::Display) -> Self {
+        Self::new(format!("`{key}` {message}")).in_file(file)
+    }
+
+    /// A problem that another error describes.
+    pub fn from_error(message: &str, error: impl fmt::Display) -> Self {
+        Self::new(format!("{message}: {error}"))
+    }
+
+    #[must_use]
+    pub fn in_file(self, file: &Path) -> Self {
+        self.at(file.display().to_string())
+    }
+
+    /// Names the place unless one is named already.
+    #[must_use]
+    pub fn at(mut self, place: String) -> Self {
+        self.place.get_or_insert(place);
+        self
+    }
+
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{place}: ")?;
+        }
+        f.write_str(&self.message)?;
+        if let Some(hint) = &self.hint {
+            write!(f, "\n\nhint: {hint}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The known name nearest to one that was found, if it is near enough to be a slip.
+pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|name| (strsim::damerau_levenshtein(found, name), name))
+        .filter(|(distance, name)| *distance <= 1 + name.chars().count() / 3)
+        .min()
+        .map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_finds_its_key_and_a_stranger_does_not() {
+        let known = ["epsilon", "transient", "average"];
+        assert_eq!(nearest("epsilom", known), Some("epsilon"));
+        assert_eq!(nearest("transeint", known), Some("transient"));
+        assert_eq!(nearest("colour", known), None);
+    }
+}

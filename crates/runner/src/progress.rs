@@ -1,0 +1,54 @@
+//! Progress of the stages of a run on the terminal, with an estimate of the time left; silent when
+//! standard error is not a terminal.
+
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Shows the stages of one experiment.
+pub struct Stages {
+    id: String,
+}
+
+impl Stages {
+    pub fn new(id: &str) -> Self {
+        Self { id: id.to_owned() }
+    }
+
+    /// Runs a stage whose length is not known beforehand.
+    pub fn unmeasured<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
+        let bar = self.bar(stage, "{prefix} {spinner} {elapsed}", None);
+        let result = work();
+        bar.finish_and_clear();
+        result
+    }
+
+    /// Runs a stage of about so many steps; it reports the steps it has done.
+    pub fn measured<T>(
+        &self,
+        stage: &str,
+        steps: u64,
+        work: impl FnOnce(dynamics::Progress<'_>) -> T,
+    ) -> T {
+        let template = "{prefix} [{bar:30}] {percent:>3} %  {elapsed} so far, about {eta} left";
+        let bar = self.bar(stage, template, Some(steps));
+        let result = work(&|done| {
+            // A stage that turns out longer than planned stretches its bar.
+            if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
+                bar.inc_length(done);
+            }
+            bar.inc(done);
+        });
+        bar.finish_and_clear();
+        result
+    }
+
+    fn bar(&self, stage: &str, template: &str, steps: Option<u64>) -> ProgressBar {
+        let bar = steps.map_or_else(ProgressBar::new_spinner, ProgressBar::new);
+        let style = ProgressStyle::with_template(template).expect("the template is a constant");
+        bar.set_style(style.progress_chars("=> "));
+        bar.set_prefix(format!("{} {stage}", self.id));
+        bar.enable_steady_tick(Duration::from_millis(200));
+        bar
+    }
+}

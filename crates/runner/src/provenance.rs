@@ -1,0 +1,66 @@
+//! Where a result comes from: version, commit, seed, plan, processor, time taken.
+
+use std::time::Duration;
+
+use serde::Serialize;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use crate::plan::Plan;
+
+/// The `provenance` of a summary. The only part of it that may differ between two equal runs.
+#[derive(Serialize)]
+pub struct Provenance {
+    pub version: &'static str,
+    /// Commit of eigensync that the program was built from; `+` when files were changed since.
+    pub commit: &'static str,
+    pub seed: u64,
+    /// SHA-256 of the experiment as parsed, its shortening, and the network's links.
+    pub plan_hash: String,
+    /// Vector instructions the processor has; no result depends on them.
+    pub host_features: Vec<&'static str>,
+    pub threads: usize,
+    pub wall_time_s: f64,
+}
+
+impl Provenance {
+    pub fn new(plan: &Plan, experiment: &Value, took: Duration) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            commit: env!("EIGENSYNC_COMMIT"),
+            seed: plan.experiment.seed,
+            plan_hash: plan_hash(plan, experiment),
+            host_features: host_features(),
+            threads: rayon::current_num_threads(),
+            wall_time_s: (took.as_secs_f64() * 1e3).round() / 1e3,
+        }
+    }
+}
+
+fn plan_hash(plan: &Plan, experiment: &Value) -> String {
+    let mut hash = Sha256::new();
+    hash.update(experiment.to_string());
+    hash.update(plan.shortened.to_le_bytes());
+    for (row, links) in plan.network.adjacency().outer_iterator().enumerate() {
+        for (col, weight) in links.iter() {
+            hash.update((row as u64).to_le_bytes());
+            hash.update((col as u64).to_le_bytes());
+            hash.update(weight.to_le_bytes());
+        }
+    }
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn host_features() -> Vec<&'static str> {
+    let mut features = Vec::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        let known = [
+            ("avx2", std::is_x86_feature_detected!("avx2")),
+            ("fma", std::is_x86_feature_detected!("fma")),
+            ("avx512f", std::is_x86_feature_detected!("avx512f")),
+        ];
+        features.extend(known.into_iter().filter(|(_, has)| *has).map(|(name, _)| name));
+    }
+    features
+}

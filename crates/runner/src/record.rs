@@ -1,0 +1,308 @@
+//! The results folder of one run: `summary.json`, tables of everything plotted, the figure. Written
+//! beside its place and renamed when whole, so that nothing unfinished ever looks finished.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::claims::{Claim, labelled};
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::problem::{Problem, Result};
+use crate::provenance::Provenance;
+use crate::simulated::{Onset, OverSeeds, completed};
+
+/// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
+#[derive(Serialize)]
+pub struct Summary {
+    pub id: String,
+    pub title: String,
+    pub source: String,
+    /// The experiment file as parsed, defaults left out.
+    pub experiment: Value,
+    /// 1 for a full run; by how much `--quick` shortened all times.
+    pub shortened: f64,
+    pub network: NetworkRecord,
+    pub eigenvalues: Vec<f64>,
+    pub spectrum: SpectrumRecord,
+    pub msf: MsfRecord,
+    pub critical_couplings: Vec<CriticalRecord>,
+    pub cascade: Vec<StateRecord>,
+    pub simulations: Vec<SimulationRecord>,
+    pub claims: Vec<Claim>,
+    pub provenance: Provenance,
+}
+
+#[derive(Serialize)]
+pub struct NetworkRecord {
+    pub nodes: usize,
+    pub links: usize,
+    pub components: usize,
+    pub isolated_nodes: usize,
+}
+
+#[derive(Serialize)]
+pub struct SpectrumRecord {
+    pub solver: &'static str,
+    /// First and last mode of each run of equal eigenvalues of two modes or more.
+    pub multiple: Vec<[usize; 2]>,
+    /// Eigenvalues closer than this are one eigenspace.
+    pub tolerance: f64,
+    /// Largest ‖W v − λ v‖.
+    pub largest_residual: f64,
+}
+
+#[derive(Serialize)]
+pub struct MsfRecord {
+    pub lyapunov_isolated: f64,
+    pub lyapunov_isolated_standard_error: f64,
+    /// Stable intervals of σ, [from, to]; no upper end where the grid ends stable.
+    pub stable: Vec<(f64, Option<f64>)>,
+    pub sigma_c: Option<f64>,
+    pub standard_error: Option<f64>,
+    pub confidence_interval: Option<[f64; 2]>,
+    /// Every zero of Λ, with its standard error.
+    pub zeros: Vec<ZeroRecord>,
+}
+
+#[derive(Serialize)]
+pub struct ZeroRecord {
+    pub sigma: f64,
+    pub standard_error: f64,
+    pub falling: bool,
+}
+
+#[derive(Serialize)]
+pub struct CriticalRecord {
+    pub mode: usize,
+    pub lambda: f64,
+    /// None where no coupling stabilises the mode.
+    pub epsilon: Option<f64>,
+    pub standard_error: Option<f64>,
+    pub stable_above: bool,
+}
+
+#[derive(Serialize)]
+pub struct StateRecord {
+    pub epsilon: (f64, Option<f64>),
+    pub unstable_modes: Vec<usize>,
+    /// Clusters of two nodes or more.
+    pub clusters: Vec<Vec<String>>,
+    /// From which ε on the simulation shows these clusters; none without simulation or clusters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulated_onset: Option<Onset>,
+}
+
+#[derive(Serialize)]
+pub struct SimulationRecord {
+    pub epsilon: f64,
+    /// `completed`, `escaped`, or both counted.
+    pub outcome: String,
+    /// Simulated clusters of two nodes or more.
+    pub clusters: Option<Vec<Vec<String>>>,
+    /// δx_i of every node to the reference node.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub error_to_reference: Vec<Option<OverSeeds>>,
+    /// δx^c_m of every cluster of the experiment.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub error_within_clusters: Vec<Option<OverSeeds>>,
+}
+
+/// Collects a summary.
+pub fn summarise(
+    plan: &Plan,
+    findings: &Findings,
+    claims: Vec<Claim>,
+    took: Duration,
+) -> Result<Summary> {
+    let (network, spectrum) = (&plan.network, &findings.spectrum);
+    let text = fs::read_to_string(&plan.file)
+        .map_err(|error| Problem::from_error("cannot be read again", error).in_file(&plan.file))?;
+    let experiment: Value = toml::from_str(&text).map_err(|error| {
+        Problem::from_error("has changed during the run", error).in_file(&plan.file)
+    })?;
+    Ok(Summary {
+        id: plan.id.clone(),
+        title: plan.experiment.title.clone(),
+        source: plan.experiment.source.clone(),
+        shortened: plan.shortened,
+        network: NetworkRecord {
+            nodes: network.n_nodes(),
+            links: network.n_links(),
+            components: network.components().len(),
+            isolated_nodes: network.isolated_nodes().len(),
+        },
+        eigenvalues: spectrum.eigenvalues.clone(),
+        spectrum: SpectrumRecord {
+            solver: match spectrum.solver {
+                spectra::Solver::Dense => "dense",
+                spectra::Solver::Arpack => "arpack",
+            },
+            multiple: spectrum
+                .eigenspaces
+                .iter()
+                .filter(|modes| modes.len() > 1)
+                .map(|modes| [modes.start + 1, modes.end])
+                .collect(),
+            tolerance: spectrum.tolerance,
+            largest_residual: spectrum.residuals.iter().copied().fold(0.0, f64::max),
+        },
+        msf: msf_record(findings),
+        critical_couplings: critical_records(findings),
+        cascade: state_records(plan, findings),
+        simulations: simulation_records(plan, findings),
+        claims,
+        provenance: Provenance::new(plan, &experiment, took),
+        experiment,
+    })
+}
+
+fn msf_record(findings: &Findings) -> MsfRecord {
+    let msf = &findings.msf;
+    let sigma_c = msf.sigma_c();
+    MsfRecord {
+        lyapunov_isolated: msf.isolated.mean,
+        lyapunov_isolated_standard_error: msf.isolated.standard_error,
+        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+        sigma_c: sigma_c.map(|zero| zero.sigma),
+        standard_error: sigma_c.map(|zero| zero.standard_error),
+        confidence_interval: sigma_c.map(|zero| zero.confidence_interval()),
+        zeros: msf
+            .zeros
+            .iter()
+            .map(|zero| ZeroRecord {
+                sigma: zero.sigma,
+                standard_error: zero.standard_error,
+                falling: zero.falling,
+            })
+            .collect(),
+    }
+}
+
+fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let record = |critical: &msf::CriticalCoupling| CriticalRecord {
+        mode: critical.mode,
+        lambda: critical.lambda,
+        epsilon: finite(critical.epsilon),
+        standard_error: finite(critical.standard_error),
+        stable_above: critical.stable_above,
+    };
+    findings.critical.iter().map(record).collect()
+}
+
+fn state_records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
+    let record = |state: &clustering::State| {
+        let clusters = state.clusters.nontrivial();
+        let simulated = findings.simulated.as_ref();
+        let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+        let observed = simulated.filter(|_| !clusters.is_empty() && has_pairs);
+        StateRecord {
+            epsilon: state.epsilon,
+            unstable_modes: state.unstable_modes.iter().map(|mode| mode + 1).collect(),
+            clusters: named(&clusters, plan),
+            simulated_onset: observed.map(|simulated| simulated.onset(&clusters)),
+        }
+    };
+    findings.cascade.iter().map(record).collect()
+}
+
+fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord> {
+    let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) else { return vec![] };
+    let reference = sweep.observables.reference.map_or(0, |_| plan.network.n_nodes());
+    let record = |(position, &epsilon): (usize, &f64)| {
+        let runs = simulated.at(position);
+        let escaped = runs.iter().filter(|run| completed(run).is_none()).count();
+        SimulationRecord {
+            epsilon,
+            outcome: match escaped {
+                0 => "completed".into(),
+                all if all == runs.len() => "escaped".into(),
+                some => format!("{some} of {} escaped", runs.len()),
+            },
+            clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
+            error_to_reference: (0..reference)
+                .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
+                .collect(),
+            error_within_clusters: (0..sweep.observables.clusters.len())
+                .map(|m| simulated.over_seeds(position, |errors| errors.within_clusters[m]))
+                .collect(),
+        }
+    };
+    simulated.epsilon.iter().enumerate().map(record).collect()
+}
+
+fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {
+    let labels = labelled(clusters, &plan.network).into_iter();
+    labels.map(|cluster| cluster.into_iter().map(str::to_owned).collect()).collect()
+}
+
+/// A results folder in the making.
+pub struct Folder {
+    making: tempfile::TempDir,
+    place: PathBuf,
+}
+
+impl Folder {
+    /// Starts the folder `results/<id>` and removes what killed runs of it have left.
+    pub fn start(results: &Path, id: &str) -> Result<Self> {
+        let failed = |error: std::io::Error| {
+            Problem::from_error("cannot be written to", error).in_file(results)
+        };
+        fs::create_dir_all(results).map_err(failed)?;
+        let prefix = format!(".{id}.unfinished-");
+        for entry in fs::read_dir(results).map_err(failed)?.flatten() {
+            if entry.file_name().to_string_lossy().starts_with(&prefix) {
+                fs::remove_dir_all(entry.path()).map_err(failed)?;
+            }
+        }
+        let making =
+            tempfile::Builder::new().prefix(&prefix).tempdir_in(results).map_err(failed)?;
+        Ok(Self { making, place: results.join(id) })
+    }
+
+    /// Writes one file of the folder.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<()> {
+        fs::write(self.making.path().join(name), content).map_err(|error| {
+            Problem::from_error("cannot be written", error).in_file(&self.place.join(name))
+        })
+    }
+
+    /// Writes a table: a header and rows of fields.
+    pub fn write_table(
+        &self,
+        name: &str,
+        header: &[String],
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Result<()> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let records = std::iter::once(header.to_vec()).chain(rows);
+        for record in records {
+            table.write_record(&record).expect("a row has as many fields as the header");
+        }
+        self.write(name, table.into_inner().expect("memory takes every byte"))
+    }
+
+    /// Puts the whole folder in its place, in exchange for an older one.
+    pub fn finish(self) -> Result<PathBuf> {
+        let Self { making, place } = self;
+        let failed = |error: std::io::Error| {
+            Problem::from_error("cannot be put in place", error).in_file(&place)
+        };
+        let whole = making.keep();
+        // Named like an unfinished folder, so that a run killed right here is cleaned up after.
+        let mut aside = whole.clone().into_os_string();
+        aside.push("-replaced");
+        if place.exists() {
+            fs::rename(&place, &aside).map_err(failed)?;
+        }
+        fs::rename(&whole, &place).map_err(failed)?;
+        if Path::new(&aside).exists() {
+            fs::remove_dir_all(&aside).map_err(failed)?;
+        }
+        Ok(place)
+    }
+}

@@ -1,0 +1,115 @@
+//! Everything a run writes: the summary, the tables, the figure.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use dynamics::{Errors, Estimate};
+
+use crate::claims::Claim;
+use crate::drawing;
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::problem::{Problem, Result};
+use crate::record::{Folder, summarise};
+use crate::simulated::{Simulated, completed};
+
+/// Up to this many nodes all computed eigenvectors are written as text.
+const EIGENVECTOR_TABLE: usize = 5000;
+
+/// Writes the results folder and gives its place.
+pub fn write(
+    plan: &Plan,
+    findings: &Findings,
+    claims: Vec<Claim>,
+    started: Instant,
+    results: &Path,
+) -> Result<PathBuf> {
+    let folder = Folder::start(results, &plan.id)?;
+    write_spectrum(&folder, plan, findings)?;
+    write_msf(&folder, findings)?;
+    if let Some(simulated) = &findings.simulated {
+        write_sweep(&folder, plan, simulated)?;
+    }
+    let failed = |error: &dyn std::fmt::Display| {
+        Problem::from_error("the figure cannot be drawn", error).in_file(&plan.file)
+    };
+    let svg = drawing::figure(plan, findings).svg().map_err(|error| failed(&error))?;
+    folder.write(
+        "figure.png",
+        crate::figures::png(&svg, drawing::DOTS_PER_INCH).map_err(|error| failed(&error))?,
+    )?;
+    folder.write("figure.svg", svg)?;
+    let summary = summarise(plan, findings, claims, started.elapsed())?;
+    let json = serde_json::to_string_pretty(&summary).map_err(|error| {
+        Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
+    })?;
+    folder.write("summary.json", json + "\n")?;
+    folder.finish()
+}
+
+fn write_spectrum(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
+    let spectrum = &findings.spectrum;
+    let header = ["mode", "lambda", "residual"].map(str::to_owned);
+    let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate();
+    let rows = modes.map(|(k, (lambda, residual))| {
+        vec![(k + 1).to_string(), number(*lambda), number(*residual)]
+    });
+    folder.write_table("spectrum.csv", &header, rows)?;
+    let labels = plan.network.labels();
+    if labels.len() > EIGENVECTOR_TABLE {
+        return Ok(());
+    }
+    let mut header = vec!["node".to_owned()];
+    header.extend((1..=spectrum.eigenvectors.len()).map(|k| format!("v{k}")));
+    let rows = labels.iter().enumerate().map(|(i, label)| {
+        let components = spectrum.eigenvectors.iter().map(|v| number(v[i]));
+        std::iter::once(label.clone()).chain(components).collect()
+    });
+    folder.write_table("eigenvectors.csv", &header, rows)
+}
+
+fn write_msf(folder: &Folder, findings: &Findings) -> Result<()> {
+    let msf = &findings.msf;
+    let header = ["sigma", "Lambda", "standard_error"].map(str::to_owned);
+    let rows = msf.sigma.iter().zip(&msf.lambda).map(|(sigma, lambda)| {
+        vec![number(*sigma), number(lambda.mean), number(lambda.standard_error)]
+    });
+    folder.write_table("msf.csv", &header, rows)
+}
+
+/// What one column of the sweep's table takes from the errors of a run.
+type Column = Box<dyn Fn(&Errors) -> Estimate>;
+
+/// A row for each ε and seed; errors of a run that escaped are left empty.
+fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()> {
+    let Some(sweep) = &plan.sweep else { return Ok(()) };
+    let labels = plan.network.labels();
+    let mut header = ["epsilon", "seed", "outcome"].map(str::to_owned).to_vec();
+    let mut columns: Vec<Column> = Vec::new();
+    if let Some(reference) = sweep.observables.reference {
+        for (node, label) in labels.iter().enumerate() {
+            header.push(format!("error_{label}_to_{}", labels[reference]));
+            columns.push(Box::new(move |errors: &Errors| errors.to_reference[node]));
+        }
+    }
+    for m in 0..sweep.observables.clusters.len() {
+        header.push(format!("error_within_cluster_{}", m + 1));
+        columns.push(Box::new(move |errors: &Errors| errors.within_clusters[m]));
+    }
+    let rows = simulated.runs.iter().map(|run| {
+        let errors = completed(run);
+        let mut row = vec![number(run.replica.epsilon), run.replica.seed.to_string()];
+        row.push(match run.outcome {
+            dynamics::Outcome::Completed(_) => "completed".into(),
+            dynamics::Outcome::Escaped { time } => format!("escaped at {time}"),
+        });
+        row.extend(columns.iter().map(|of| errors.map_or(String::new(), |e| number(of(e).mean))));
+        row
+    });
+    folder.write_table("sweep.csv", &header, rows)
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
