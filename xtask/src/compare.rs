@@ -12,5 +12,9 @@ pub struct Args {
 /// Runs `eigensync compare` and gives its exit status.
 pub fn run(args: &Args) -> Result<u8, String> {
     setup::ensure()?;
-    status(cargo().args(["run", "--release", "--quiet", "--package", "runner", "--", "compare"]).args(&args.ids))
+    status(
+        cargo()
+            .args(["run", "--release", "--quiet", "--package", "runner", "--", "compare"])
+            .args(&args.ids),
+    )
 }

@@ -60,7 +60,8 @@ pub fn ensure() -> Result<(), String> {
             packages.join(" ")
         ));
     };
-    let install = [&["apt-get", "install", "-y", "--no-install-recommends"], &packages[..]].concat();
+    let install =
+        [&["apt-get", "install", "-y", "--no-install-recommends"], &packages[..]].concat();
     // A fresh machine has no package lists, an old one has stale lists.
     for step in [&["apt-get", "update"][..], &install[..]] {
         let line = [prefix, step].concat();
@@ -123,10 +124,7 @@ fn holds(folder: &Path, library: &str) -> bool {
 }
 
 fn is_root() -> bool {
-    Command::new("id")
-        .arg("-u")
-        .output()
-        .is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+    Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout.trim_ascii() == b"0")
 }
 
 /// Whether a program is there and exits with 0.

@@ -19,6 +19,9 @@ pub struct Claim {
     pub source: String,
     pub paper: Value,
     pub obtained: Value,
+    /// Standard error of the obtained number; for an onset the standard deviation over seeds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<f64>,
     pub tolerance: String,
     pub verdict: Verdict,
     /// Why the tolerance is what it is, or why a difference is known.
@@ -81,6 +84,7 @@ impl Judge<'_> {
             source: if spec.source.is_empty() { own.clone() } else { spec.source.clone() },
             paper,
             obtained,
+            uncertainty: self.uncertainty(),
             tolerance,
             verdict,
             reason: known.unwrap_or_else(|| spec.reason.clone()),
@@ -97,10 +101,20 @@ impl Judge<'_> {
         };
         let all = |holds: &dyn Fn(f64) -> bool| obtained.iter().all(|x| x.is_some_and(holds));
         if let Some(limit) = self.spec.at_most {
-            return Ok((json!(limit), shown, "at most".into(), all(&|x| x <= limit)));
+            return Ok((
+                json!(format!("at most {limit}")),
+                shown,
+                "exact".into(),
+                all(&|x| x <= limit),
+            ));
         }
         if let Some(limit) = self.spec.at_least {
-            return Ok((json!(limit), shown, "at least".into(), all(&|x| x >= limit)));
+            return Ok((
+                json!(format!("at least {limit}")),
+                shown,
+                "exact".into(),
+                all(&|x| x >= limit),
+            ));
         }
         let paper: Vec<f64> = match self.equals("a number or a list of numbers")? {
             OneOrMany::One(number) => vec![number],
@@ -131,7 +145,11 @@ impl Judge<'_> {
         let clusters = || self.nodes(at.clusters.as_deref().unwrap_or_default());
         match self.spec.of {
             Quantity::Eigenvalues => {
-                findings.spectrum.eigenvalues.iter().copied().map(Some).collect()
+                let eigenvalues = &findings.spectrum.eigenvalues;
+                match &at.modes {
+                    None => eigenvalues.iter().copied().map(Some).collect(),
+                    Some(modes) => modes.iter().map(|k| eigenvalues.get(k - 1).copied()).collect(),
+                }
             }
             Quantity::LyapunovIsolated => vec![Some(findings.msf.isolated.mean)],
             Quantity::SigmaC => vec![findings.msf.sigma_c().map(|zero| zero.sigma)],
@@ -159,6 +177,20 @@ impl Judge<'_> {
             | Quantity::SimulatedClusters
             | Quantity::CascadeOrder
             | Quantity::SimulatedOrder => vec![],
+        }
+    }
+
+    /// How well the obtained number is known, where that is known itself.
+    fn uncertainty(&self) -> Option<f64> {
+        let findings = self.findings;
+        match self.spec.of {
+            Quantity::LyapunovIsolated => Some(findings.msf.isolated.standard_error),
+            Quantity::SigmaC => findings.msf.sigma_c().map(|zero| zero.standard_error),
+            Quantity::SimulatedOnset => {
+                let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
+                findings.simulated.as_ref().and_then(|s| s.onset(&clusters).spread)
+            }
+            _ => None,
         }
     }
 

@@ -124,7 +124,10 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
             ErrorScale::Log => Scale::Log,
         },
         series,
-        markers: vec![critical(plan, findings, [first, last]), seen_by_the_source(plan)],
+        markers: [critical(plan, findings, [first, last]), seen_by_the_source(plan)]
+            .into_iter()
+            .filter(|group| !group.markers.is_empty())
+            .collect(),
         ..LinePanel::default()
     }
 }

@@ -1,23 +1,36 @@
 //! The table of claims, and numbers as people read them.
 
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{ContentArrangement, Table};
 use serde_json::Value;
 
 use crate::claims::Claim;
 
-/// claim | paper | obtained | tolerance | verdict, of several experiments.
+/// Lists with more entries are abridged.
+const LONG_LIST: usize = 8;
+/// Width of the table where there is no terminal that says how wide it is.
+const WIDTH: u16 = 170;
+
+/// claim | paper | obtained | tolerance | verdict, a table for each experiment under its name.
 pub fn claims<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Claim])>) -> String {
+    let tables = of.into_iter().map(|(id, claims)| format!("{id}\n{}\n", table(claims)));
+    tables.collect::<Vec<_>>().join("\n")
+}
+
+fn table(claims: &[Claim]) -> String {
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(["experiment", "claim", "paper", "obtained", "tolerance", "verdict"]);
-    for (id, claims) in of {
-        for claim in claims {
-            let name = claim.name.replace('_', " ");
-            let [paper, obtained] = [&claim.paper, &claim.obtained].map(readable);
-            let verdict = claim.verdict.to_string();
-            table.add_row([id.to_owned(), name, paper, obtained, claim.tolerance.clone(), verdict]);
+    table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    if !table.is_tty() {
+        table.set_width(WIDTH);
+    }
+    table.set_header(["claim", "paper", "obtained", "tolerance", "verdict"]);
+    for claim in claims {
+        let [paper, mut obtained] = [&claim.paper, &claim.obtained].map(readable);
+        if let Some(uncertainty) = claim.uncertainty {
+            obtained.push_str(&format!(" ± {}", two_digits(uncertainty)));
         }
+        let name = claim.name.replace('_', " ");
+        table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }
     table.to_string()
 }
@@ -39,8 +52,13 @@ pub fn readable(value: &Value) -> String {
     }
 }
 
+/// The entries of a list, those in the middle of a long one left out.
 fn joined(list: &[Value], separator: &str) -> String {
-    list.iter().map(readable).collect::<Vec<_>>().join(separator)
+    let mut entries: Vec<String> = list.iter().map(readable).collect();
+    if entries.len() > LONG_LIST {
+        entries.splice(LONG_LIST / 2..entries.len() - LONG_LIST / 2, ["…".into()]);
+    }
+    entries.join(separator)
 }
 
 fn four_digits(number: f64) -> String {
@@ -49,6 +67,11 @@ fn four_digits(number: f64) -> String {
         return "0".into();
     }
     let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
+    format!("{digits}")
+}
+
+fn two_digits(number: f64) -> String {
+    let digits = format!("{number:.1e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
 
