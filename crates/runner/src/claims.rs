@@ -19,7 +19,8 @@ pub struct Claim {
     pub source: String,
     pub paper: Value,
     pub obtained: Value,
-    /// Standard error of the obtained number; for an onset the standard deviation over seeds.
+    /// Standard error of the obtained number; for an onset the standard deviation over seeds, or half
+    /// a step of the sweep if that is larger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<f64>,
     pub tolerance: String,
@@ -188,7 +189,8 @@ impl Judge<'_> {
             Quantity::SigmaC => findings.msf.sigma_c().map(|zero| zero.standard_error),
             Quantity::SimulatedOnset => {
                 let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
-                findings.simulated.as_ref().and_then(|s| s.onset(&clusters).spread)
+                let simulated = findings.simulated.as_ref()?;
+                Some(simulated.onset(&clusters).spread?.max(0.5 * simulated.widest_step()))
             }
             _ => None,
         }

@@ -58,6 +58,11 @@ impl Simulated {
         self.epsilon.iter().position(|&value| value == epsilon)
     }
 
+    /// Largest distance between neighbouring couplings of the sweep.
+    pub fn widest_step(&self) -> f64 {
+        self.epsilon.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+    }
+
     /// The runs at one ε, in the order of seeds.
     pub fn at(&self, position: usize) -> &[Run] {
         &self.runs[position * self.seeds.len()..(position + 1) * self.seeds.len()]

@@ -66,6 +66,9 @@ fn four_digits(number: f64) -> String {
     if number.abs() < 1e-12 {
         return "0".into();
     }
+    if number.abs() < 1e-4 {
+        return format!("{number:.1e}");
+    }
     let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
