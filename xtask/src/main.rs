@@ -4,6 +4,7 @@
 //! the others need before they are built.
 
 mod compare;
+mod data;
 mod reproduce;
 mod setup;
 mod test;
@@ -26,6 +27,8 @@ enum Task {
     Reproduce(reproduce::Args),
     /// Compare the results folder with the golden outputs, without running anything
     Compare(compare::Args),
+    /// Bring the connectomes that may not be redistributed into data/
+    Data(data::Args),
     /// Run every test of the workspace
     Test(test::Args),
 }
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Reproduce(args) => reproduce::run(&args),
         Task::Compare(args) => compare::run(&args),
+        Task::Data(args) => data::run(&args),
         Task::Test(args) => test::run(&args),
     };
     match outcome {
