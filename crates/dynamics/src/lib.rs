@@ -11,6 +11,7 @@
 mod coupling;
 mod error;
 mod integrators;
+mod kicks;
 pub mod lyapunov;
 mod network;
 mod observables;
@@ -23,7 +24,7 @@ mod statistics;
 pub use coupling::Coupling;
 pub use error::DynamicsError;
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
-pub use network::{Outcome, Replica, Run, Schedule, Simulation};
+pub use network::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
 pub use observables::{Errors, Observables};
 pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::error::{check_times, whole};
 use crate::integrators::{Method, adaptive, rk4::NetworkRk4};
+use crate::kicks::Kicks;
 use crate::observables::{ErrorSums, Errors, Observables};
 use crate::oscillators::with_oscillator;
 use crate::random::initial_states;
@@ -20,6 +21,9 @@ use crate::{
 
 /// The most lanes advanced together: 16 doubles fill two AVX-512 or eight SSE2 registers.
 const MAX_LANES: usize = 16;
+
+/// Relative size of kicks of some fifty roundings.
+pub const ROUNDING_KICK: f64 = 1e-14;
 
 /// How long to simulate and how often to look. All times in model time units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +83,9 @@ pub struct Simulation<'a> {
     pub schedule: Schedule,
     /// What to average.
     pub observables: Observables,
+    /// Relative size of the random kicks that keep states from being equal to the last bit; 0 for
+    /// none. [`ROUNDING_KICK`] is what nothing but rounding would notice.
+    pub kick: f64,
 }
 
 impl Simulation<'_> {
@@ -145,6 +152,8 @@ impl Simulation<'_> {
         let schedule = &self.schedule;
         let mut sums =
             ErrorSums::new(&self.observables, flow.n_nodes(), schedule.samples_per_block());
+        let replicas = std::array::from_fn(replica);
+        let mut kicks = Kicks::new(self.kick, schedule.sampling_interval(), replicas);
         let mut escaped_at = [None; L];
         for sample in 1..=schedule.transient_samples() + schedule.samples() {
             for _ in 0..schedule.stride {
@@ -160,6 +169,9 @@ impl Simulation<'_> {
             }
             if sample > schedule.transient_samples() {
                 sums.sample(network.state());
+            }
+            if kicks.due(sample) {
+                network.state_mut().iter_mut().flatten().for_each(|x| kicks.apply(x));
             }
             progress(u64::from(schedule.stride) * batch.len() as u64);
         }

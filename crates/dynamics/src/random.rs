@@ -19,7 +19,7 @@ pub(crate) fn initial_states<O: Oscillator<D>, const D: usize>(
 }
 
 /// 53 random bits as a number in [0, 1).
-fn unit_interval(bits: u64) -> f64 {
+pub(crate) fn unit_interval(bits: u64) -> f64 {
     (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
 }
 

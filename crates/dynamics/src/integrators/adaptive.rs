@@ -8,6 +8,7 @@
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 
+use crate::kicks::Kicks;
 use crate::network::{NetworkFlow, Outcome, Replica, Simulation, bounded, initial_lanes};
 use crate::observables::ErrorSums;
 use crate::{DynamicsError, Lanes, Oscillator, Progress};
@@ -44,6 +45,7 @@ pub(crate) fn run<O: Oscillator<D>, const D: usize>(
     let system = Flat { flow, epsilon: replica.epsilon };
     let start = initial_lanes::<O, D, 1>(n_nodes, [replica.seed]);
     let mut y = DVector::from_iterator(D * n_nodes, start.iter().flatten().map(|x| x.0[0]));
+    let mut kicks = Kicks::new(simulation.kick, schedule.sampling_interval(), [replica]);
     let mut sums =
         ErrorSums::<1>::new(&simulation.observables, n_nodes, schedule.samples_per_block());
     for sample in 1..=schedule.transient_samples() + schedule.samples() {
@@ -59,6 +61,13 @@ pub(crate) fn run<O: Oscillator<D>, const D: usize>(
         solved.map_err(|reason| DynamicsError::Adaptive { time, reason: reason.to_string() })?;
         if sample > schedule.transient_samples() {
             sums.sample(state);
+        }
+        if kicks.due(sample) {
+            for y in y.iter_mut() {
+                let mut kicked = Lanes([*y]);
+                kicks.apply(&mut kicked);
+                [*y] = kicked.0;
+            }
         }
         progress(u64::from(schedule.stride));
     }

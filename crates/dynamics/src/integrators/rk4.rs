@@ -50,6 +50,10 @@ impl<S: Scalar, const D: usize> NetworkRk4<S, D> {
         slices(&self.state)
     }
 
+    pub(crate) fn state_mut(&mut self) -> &mut [Vec<S>; D] {
+        &mut self.state
+    }
+
     /// Advances every node by one step h, with a coupling strength for every lane.
     #[inline(always)]
     pub(crate) fn step<O: Oscillator<D>>(
