@@ -142,6 +142,7 @@ fn seconds_per_step(plan: &Plan, sweep: &Sweep) -> f64 {
         method: sweep.method,
         schedule,
         observables: Observables::default(),
+        kick: sweep.kick,
     };
     let took = timed(|| on_one_thread(|| simulation.run(&replicas, &|_| ())));
     took.as_secs_f64() / (16.0 * schedule.steps() as f64)

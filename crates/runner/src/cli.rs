@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use clap::{Parser, Subcommand};
 
 use crate::claims::{Claim, Verdict};
-use crate::plan::{self, Plan};
+use crate::plan;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
-use crate::{check, claims, compare, findings, load, results, table};
+use crate::{check, claims, compare, findings, load, record, results, table};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -97,7 +97,13 @@ pub fn run(cli: Cli) -> Result<bool> {
             Ok(true)
         }
         Command::Compare { ids, folders } => {
-            let ids = if ids.is_empty() { golden_ids(&folders.golden)? } else { ids };
+            let golden = golden_ids(&folders.golden)?;
+            if let Some(unknown) = ids.iter().find(|id| !golden.contains(id)) {
+                let message = format!("there is no golden output called `{unknown}`");
+                let known = format!("known here: {}", golden.join(", "));
+                return Err(Problem::new(message).in_file(&folders.golden).hint(known));
+            }
+            let ids = if ids.is_empty() { golden } else { ids };
             compare_all(&ids, &folders)
         }
         Command::List { experiments, folders } => list(&experiments, &folders),
@@ -107,8 +113,8 @@ pub fn run(cli: Cli) -> Result<bool> {
 /// Plans all files before running any, so that a slip in the last one shows at once.
 fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> {
     let started = Instant::now();
-    let plans: Vec<Plan> =
-        files.iter().map(|file| plan::plan(file, quick)).collect::<Result<_>>()?;
+    let plans = plan::all(files, quick)?;
+    record::check_writable(&folders.results)?;
     let mut judged: Vec<(String, Vec<Claim>, Duration)> = Vec::new();
     for plan in &plans {
         check::warn(plan);
@@ -119,7 +125,8 @@ fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> 
         eprintln!("{}: {} in {}", plan.id, place.display(), seconds(started.elapsed()));
         judged.push((plan.id.clone(), claims, started.elapsed()));
     }
-    println!("{}", table::claims(judged.iter().map(|(id, claims, _)| (id.as_str(), &claims[..]))));
+    let with_claims = judged.iter().filter(|(_, claims, _)| !claims.is_empty());
+    println!("{}", table::claims(with_claims.map(|(id, claims, _)| (id.as_str(), &claims[..]))));
     let all = || judged.iter().flat_map(|(_, claims, _)| claims);
     for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
         println!("{}: {}", claim.name.replace('_', " "), claim.reason);
@@ -155,8 +162,10 @@ fn compare_all(ids: &[String], folders: &Folders) -> Result<bool> {
 }
 
 fn golden_ids(golden: &Path) -> Result<Vec<String>> {
-    let entries = std::fs::read_dir(golden)
-        .map_err(|error| Problem::from_error("cannot be read", error).in_file(golden))?;
+    let bless = "`cargo xtask reproduce --bless` makes golden outputs of results";
+    let entries = std::fs::read_dir(golden).map_err(|error| {
+        Problem::from_error("cannot be read", error).in_file(golden).hint(bless)
+    })?;
     let with_summary = |path: &PathBuf| path.join("summary.json").exists();
     let mut ids: Vec<String> = entries
         .flatten()
@@ -164,6 +173,9 @@ fn golden_ids(golden: &Path) -> Result<Vec<String>> {
         .filter(with_summary)
         .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
         .collect();
+    if ids.is_empty() {
+        return Err(Problem::new("holds no golden outputs").in_file(golden).hint(bless));
+    }
     ids.sort();
     Ok(ids)
 }
@@ -180,7 +192,7 @@ fn list(experiments: &Path, folders: &Folders) -> Result<bool> {
     }
     for file in files {
         let title = match load::experiment(&file) {
-            Ok(experiment) => experiment.title,
+            Ok((experiment, _)) => experiment.title,
             Err(problem) => format!("cannot be read: {problem}"),
         };
         let id = file.file_stem().unwrap_or_default().to_string_lossy();

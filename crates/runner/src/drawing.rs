@@ -29,10 +29,13 @@ pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
     let mut panels = vec![left(0, 1, Content::Network(network))];
     let mut columns = vec![1.0];
     if let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) {
-        let content = Content::Lines(errors(plan, sweep, simulated, findings));
-        let rows: Range<usize> = 0..2;
-        panels.push(Panel { letter: letter(2), rows, columns: 1..2, content });
-        columns.push(1.7);
+        let lines = errors(plan, sweep, simulated, findings);
+        // There is nothing to show where no errors were asked for, or where every run escaped.
+        if !lines.series.is_empty() {
+            let (rows, content): (Range<usize>, _) = (0..2, Content::Lines(lines));
+            panels.push(Panel { letter: letter(2), rows, columns: 1..2, content });
+            columns.push(1.7);
+        }
     }
     let number = panels.len() + 1;
     panels.push(left(1, number, Content::Lines(msf(findings))));
@@ -110,6 +113,10 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
             simulated.over_seeds(at, |errors| errors.within_clusters[m])
         }));
     }
+    // A curve of nothing but escapes, or of zeros on a logarithmic scale, has no point to draw.
+    let logarithmic = matches!(plan.figure().error_scale, ErrorScale::Log);
+    let drawable = |y: &f64| y.is_finite() && (!logarithmic || *y > 0.0);
+    series.retain(|curve| curve.y.iter().any(drawable));
     let y_label = if observables.clusters.is_empty() {
         Label::math("δx").subscript("i")
     } else {

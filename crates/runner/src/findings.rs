@@ -1,11 +1,12 @@
 //! What an experiment found: the stages of a run in order, each from those before it.
 
 use clustering::{Partition, State, merge_equal_clusters};
+use dynamics::DynamicsError;
 use msf::{CriticalCoupling, MasterStability};
 use spectra::Spectrum;
 
 use crate::plan::{Plan, Sweep};
-use crate::problem::{Problem, Result};
+use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::Simulated;
 
@@ -31,7 +32,8 @@ pub fn find(plan: &Plan, stages: &Stages) -> Result<Findings> {
         .measured("msf", plan.msf_steps(), |progress| {
             msf::master_stability(&plan.node, &plan.msf, progress)
         })
-        .map_err(|error| failed("the master stability function could not be computed", &error))?;
+        .map_err(|error| msf_problem(plan, &error))?;
+    refuse_overflow(plan, &msf)?;
     let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
     let states = clustering::cascade(&spectrum, &msf.stable_region(), plan.rule)
         .map_err(|error| failed("the cascade could not be predicted", &error))?;
@@ -42,6 +44,32 @@ pub fn find(plan: &Plan, stages: &Stages) -> Result<Findings> {
     Ok(Findings { cascade: merge_equal_clusters(&states), spectrum, msf, critical, simulated })
 }
 
+fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {
+    let what = "the master stability function could not be computed";
+    let problem = Problem::from_error(what, error).in_file(&plan.file);
+    if !matches!(error, msf::MsfError::Dynamics(DynamicsError::Escaped { .. })) {
+        return problem;
+    }
+    problem.hint(format!(
+        "either the parameters of [oscillator.{}] leave it no bounded attractor, or `msf.step` is \
+         too long for it",
+        plan.node.model.name()
+    ))
+}
+
+/// A perturbation may grow beyond all numbers between two renormalisations.
+fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
+    let Some(at) = msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) else {
+        return Ok(());
+    };
+    let message = format!(
+        "reaches {}, where perturbations grow beyond all numbers between two renormalisations",
+        plain(msf.sigma[at])
+    );
+    let hint = "end the grid earlier, or shorten `msf.renormalise` and `msf.step`";
+    Err(Problem::with_key(&plan.file, "msf.sigma", message).hint(hint))
+}
+
 fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
     let simulation = dynamics::Simulation {
         model: plan.node.model,
@@ -50,6 +78,7 @@ fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
         method: sweep.method,
         schedule: sweep.schedule,
         observables: sweep.observables.clone(),
+        kick: sweep.kick,
     };
     let runs = stages
         .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))

@@ -8,51 +8,146 @@ use toml::de::{DeTable, DeValue};
 use crate::problem::{Problem, Result, nearest};
 use crate::spec::Experiment;
 
-/// Reads and parses an experiment file.
-pub fn experiment(path: &Path) -> Result<Experiment> {
-    let text = std::fs::read_to_string(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => Problem::new("there is no such file")
-            .in_file(path)
-            .hint("`eigensync list` shows the experiments there are"),
-        std::io::ErrorKind::InvalidData => Problem::new("the file is not UTF-8 text").in_file(path),
-        _ => Problem::from_error("the file cannot be read", error).in_file(path),
-    })?;
-    toml::from_str(&text).map_err(|error| {
-        let (message, hint) = explain(error.message());
-        let Some(span) = error.span() else { return Problem::new(message).in_file(path) };
-        let key = DeTable::parse(&text).ok().and_then(|table| key_at(table.get_ref(), &span));
-        let message = match key {
-            Some(key) => format!("`{key}`: {message}"),
-            None => message,
+/// Longest quotation of a line in a message, in characters.
+const MAX_QUOTED_CHARS: usize = 60;
+
+/// Reads and parses an experiment file. With it comes what is written there, for the record.
+pub fn experiment(path: &Path) -> Result<(Experiment, serde_json::Value)> {
+    let text = read(path)?;
+    let parsed = toml::from_str(&text).and_then(|spec| Ok((spec, toml::from_str(&text)?)));
+    parsed.map_err(|error: toml::de::Error| {
+        let span = error.span().unwrap_or(0..0);
+        let problem = match DeTable::parse(&text) {
+            Ok(table) => explain(error.message().trim_end(), table.get_ref(), &span, &text),
+            Err(_) => {
+                let (line, message) = (line_at(&text, span.start), invalid(error.message()));
+                Problem::new(format!("`{line}` is not valid TOML: {message}"))
+            }
         };
-        let (line, column) = position(&text, span.start);
-        let problem = Problem::new(message).at(format!("{}:{line}:{column}", path.display()));
-        match hint {
-            Some(hint) => problem.hint(hint),
-            None => problem,
-        }
+        problem.at(place(path, &text, span.start))
     })
 }
 
+fn read(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => Problem::new("there is no such file")
+            .in_file(path)
+            .hint("`eigensync list` shows the experiments there are"),
+        std::io::ErrorKind::IsADirectory => {
+            Problem::new("is a folder, expected an experiment file")
+                .in_file(path)
+                .hint(format!("`eigensync list {}` shows the experiments in it", path.display()))
+        }
+        _ => Problem::from_error("the file cannot be read", error).in_file(path),
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let byte = error.as_bytes()[valid];
+        let before = String::from_utf8_lossy(&error.as_bytes()[..valid]);
+        Problem::new(format!("expected text in UTF-8, found the byte 0x{byte:02x}"))
+            .at(place(path, &before, valid))
+    })
+}
+
+/// What the parser says of the commonest slips in the syntax, in words that say what to do.
+fn invalid(message: &str) -> &str {
+    match message.trim_end() {
+        "duplicate key" => "this was given before",
+        "string values must be quoted, expected literal string" => {
+            "expected a number, or a text in quotes"
+        }
+        "unexpected key or value, expected newline, `#`" => {
+            "expected nothing more after the value, unless a comment that begins with #"
+        }
+        other => other,
+    }
+}
+
 /// The parser's message in our words, with a hint where a name may be a slip of the pen.
-fn explain(message: &str) -> (String, Option<String>) {
-    let message = message.trim_end();
+fn explain(message: &str, table: &DeTable<'_>, span: &Range<usize>, text: &str) -> Problem {
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let (kind, [found, known @ ..]) = (message.split('`').next().unwrap_or_default(), &names[..])
-    else {
-        return (message.to_owned(), None);
-    };
-    let what = match kind {
-        "unknown field " => "key",
-        "unknown variant " => "name",
-        "missing field " => return (format!("the key `{found}` is missing"), None),
-        _ => return (message.to_owned(), None),
-    };
-    let hint = match nearest(found, known.iter().copied()) {
-        Some(name) => Some(format!("did you mean `{name}`?")),
-        None => Some(format!("known here: {}", known.join(", "))),
-    };
-    (format!("unknown {what} `{found}`"), hint)
+    let key = key_at(table, span).unwrap_or_default();
+    match (message.split('`').next().unwrap_or_default(), &names[..]) {
+        ("missing field ", [name, ..]) => missing(name, table, span),
+        ("unknown field ", [found, known @ ..]) => {
+            unknown(format!("unknown key `{key}`"), found, known)
+        }
+        ("unknown variant ", [found, known @ ..]) if key.ends_with(found) => {
+            unknown(format!("unknown name `{key}`"), found, known)
+        }
+        ("unknown variant ", [found, known @ ..]) => {
+            unknown(format!("`{key}` is \"{found}\", a name that is not known here"), found, known)
+        }
+        _ if message.starts_with("wanted exactly 1 element") => {
+            // Where there are several, the parser points at the first of them.
+            let parent = key.rsplit_once('.').map_or(&key[..], |(parent, _)| parent);
+            Problem::new(format!("`{parent}` must have exactly one table [{parent}.…]"))
+        }
+        _ => Problem::new(format!("`{key}` {}", mistyped(message, &key, &text[span.clone()]))),
+    }
+}
+
+fn missing(name: &str, table: &DeTable<'_>, span: &Range<usize>) -> Problem {
+    match table_at(table, span) {
+        Some(table) => Problem::new(format!("`{table}.{name}` is missing")),
+        None => Problem::new(format!("`{name}` is missing")).hint(
+            "every experiment has `title`, [network.…], [oscillator.…], [coupling] and [msf]",
+        ),
+    }
+}
+
+fn unknown(message: String, found: &str, known: &[&str]) -> Problem {
+    Problem::new(message).hint(match nearest(found, known.iter().copied()) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("known here: {}", known.join(", ")),
+    })
+}
+
+/// What the parser says of a value of the wrong kind, in the words of a user of TOML.
+fn mistyped(message: &str, key: &str, value: &str) -> String {
+    let found_expected = |prefix: &str| message.strip_prefix(prefix)?.split_once(", expected ");
+    if message == "invalid type: unit variant, expected newtype variant" {
+        return format!("is only a name; expected a table [{key}.{}]", value.trim_matches('"'));
+    }
+    if let Some((length, expected)) = found_expected("invalid length ") {
+        let expected = expected.trim_start_matches("an array of length ");
+        return format!("has a list of {length} where {expected} values are expected");
+    }
+    let found_expected =
+        found_expected("invalid type: ").or_else(|| found_expected("invalid value: "));
+    match (found_expected, message) {
+        (Some((found, expected)), _) => {
+            format!("is {}, but must be {}", kind_found(found), kind_expected(expected))
+        }
+        (None, "wanted string or table") => "must be a name in quotes or a table".into(),
+        (None, message) => format!("cannot be read: {message}"),
+    }
+}
+
+fn kind_found(found: &str) -> String {
+    match found.split_once(' ') {
+        Some(("string", text)) => format!("the text {text}"),
+        Some(("integer" | "boolean", _)) | Some(("floating", _)) => {
+            found.split('`').nth(1).unwrap_or(found).to_owned()
+        }
+        _ if found == "sequence" => "a list".into(),
+        _ if found == "map" => "a table or a date".into(),
+        _ => found.to_owned(),
+    }
+}
+
+fn kind_expected(expected: &str) -> &str {
+    match expected {
+        "f64" => "a number",
+        "u64" | "usize" => "a whole number, zero or above",
+        "u32" => "a whole number from 0 to 4294967295",
+        "a sequence" => "a list",
+        "a string" => "a text in quotes",
+        "path string" => "a path in quotes",
+        "a map" => "a table",
+        _ if expected.starts_with("struct ") => "a table",
+        _ => expected,
+    }
 }
 
 /// The dotted path of the innermost key whose name or value covers a span of the file.
@@ -72,9 +167,32 @@ fn key_at(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
     })
 }
 
-/// Line and column, both from 1, of a byte of the text.
-fn position(text: &str, byte: usize) -> (usize, usize) {
+/// The dotted path of the table with exactly this span; none for the whole file.
+fn table_at(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
+    table.iter().find_map(|(key, value)| {
+        let DeValue::Table(inner) = value.get_ref() else { return None };
+        let name = key.get_ref();
+        if value.span() == *span {
+            return Some(name.to_string());
+        }
+        Some(format!("{name}.{}", table_at(inner, span)?))
+    })
+}
+
+/// File, line and column, both from 1, of a byte of the text.
+fn place(path: &Path, text: &str, byte: usize) -> String {
     let before = &text[..byte.min(text.len())];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    let (line, column) = (before.matches('\n').count() + 1, before[line_start..].chars().count());
+    format!("{}:{line}:{}", path.display(), column + 1)
+}
+
+/// The line that holds a byte of the text, or as much of it as bears quoting.
+fn line_at(text: &str, byte: usize) -> String {
+    let start = text[..byte.min(text.len())].rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[start..].lines().next().unwrap_or_default().trim();
+    match line.char_indices().nth(MAX_QUOTED_CHARS) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
+    }
 }

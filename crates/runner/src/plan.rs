@@ -1,7 +1,10 @@
 //! What will be done: an experiment with its network read, its names resolved and its numbers
 //! checked, so that nothing can go wrong later for a reason that could have been seen now.
 
-use std::collections::BTreeSet;
+mod claims;
+mod network;
+mod numbers;
+
 use std::path::{Path, PathBuf};
 
 use clustering::ClusterRule;
@@ -10,16 +13,16 @@ use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Re
 use graph::{CouplingMatrix, Network, Normalization};
 
 use crate::problem::{Problem, Result};
-use crate::spec::{
-    ClaimSpec, Experiment, FigureSpec, Format, Grid, MatrixKind, MethodKind, Name, NetworkSpec,
-    Quantity, SolverKind, SweepSpec, WordOr,
-};
+use crate::spec::{Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr};
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
 
 /// Up to this many nodes all pairs are observed; beyond it only what the file asks for.
 const ALL_PAIRS: usize = 2000;
+
+/// The most nodes for the dense solver, which at this size needs 20 GB a matrix and a day.
+const DENSE_MOST: usize = 50_000;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -29,6 +32,8 @@ pub struct Plan {
     pub file: PathBuf,
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
+    /// The same as a document, defaults left out, for the record.
+    pub written: serde_json::Value,
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
@@ -48,6 +53,7 @@ pub struct Sweep {
     pub schedule: Schedule,
     pub observables: Observables,
     pub synchronised_below: f64,
+    pub kick: f64,
 }
 
 impl Sweep {
@@ -70,27 +76,40 @@ impl Plan {
     }
 }
 
+/// Plans all files; two of one name would overwrite each other's results.
+pub fn all(files: &[PathBuf], quick: bool) -> Result<Vec<Plan>> {
+    let plans: Vec<Plan> = files.iter().map(|file| plan(file, quick)).collect::<Result<_>>()?;
+    for (position, later) in plans.iter().enumerate() {
+        if let Some(earlier) = plans[..position].iter().find(|plan| plan.id == later.id) {
+            let message = format!(
+                "has the same name as {}, and both would write the results folder {}",
+                earlier.file.display(),
+                later.id
+            );
+            return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
+        }
+    }
+    Ok(plans)
+}
+
 /// Checks an experiment file and reads what it names.
 pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
-    let experiment = crate::load::experiment(file)?;
+    let (experiment, written) = crate::load::experiment(file)?;
     let id = file
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
         .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))?;
-    let checker = Checker { file, experiment: &experiment };
     let shortened = if quick { QUICK } else { 1.0 };
+    let checker = Checker { file, experiment: &experiment, shortened };
     let network = checker.network()?;
     let matrix = CouplingMatrix::new(&network, checker.normalization());
     let node = checker.node()?;
+    let sweep = experiment.sweep.as_ref();
     let plan = Plan {
         spectrum: checker.spectrum(network.n_nodes())?,
-        msf: checker.msf(shortened)?,
+        msf: checker.msf(node.coupling)?,
         rule: checker.rule()?,
-        sweep: experiment
-            .sweep
-            .as_ref()
-            .map(|sweep| checker.sweep(sweep, &network, node.model, shortened))
-            .transpose()?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
         id,
         file: file.to_owned(),
         shortened,
@@ -98,7 +117,9 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
         matrix,
         node,
         experiment: experiment.clone(),
+        written,
     };
+    checker.figure(&plan.network)?;
     checker.claims(&plan)?;
     Ok(plan)
 }
@@ -106,24 +127,12 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
 struct Checker<'a> {
     file: &'a Path,
     experiment: &'a Experiment,
+    shortened: f64,
 }
 
 impl Checker<'_> {
     fn problem(&self, key: &str, message: impl std::fmt::Display) -> Problem {
         Problem::with_key(self.file, key, message)
-    }
-
-    fn network(&self) -> Result<Network> {
-        let NetworkSpec::File(spec) = &self.experiment.network;
-        let path = self.file.parent().unwrap_or(Path::new("")).join(&spec.path);
-        let named = |message: String| self.problem("network.file.path", message);
-        let source = std::fs::File::open(&path).map_err(|error| {
-            named(format!("names {}, which cannot be opened: {error}", path.display()))
-        })?;
-        let read = match spec.format {
-            Format::EdgeList => graph::formats::edge_list::read(source),
-        };
-        read.map_err(|error| named(format!("names {}: {error}", path.display())))
     }
 
     fn normalization(&self) -> Normalization {
@@ -135,9 +144,23 @@ impl Checker<'_> {
 
     fn node(&self) -> Result<msf::Node> {
         let (model, spec) = (self.experiment.oscillator, &self.experiment.coupling);
+        self.finite_parameters(model)?;
         let from = self.component("coupling.from", &spec.from, model)?;
         let to = self.component("coupling.to", &spec.to, model)?;
         Ok(msf::Node { model, coupling: Coupling { from, to } })
+    }
+
+    fn finite_parameters(&self, model: Model) -> Result<()> {
+        let parameters = serde_json::to_value(model).unwrap_or_default();
+        let parameters = parameters[model.name()].as_object().into_iter().flatten();
+        // JSON has no word for what is not finite, so that it comes out as null.
+        match parameters.into_iter().find(|(_, value)| value.is_null()) {
+            None => Ok(()),
+            Some((name, _)) => {
+                let key = format!("oscillator.{}.{name}", model.name());
+                Err(self.problem(&key, "must be finite"))
+            }
+        }
     }
 
     fn component(&self, key: &str, name: &str, model: Model) -> Result<usize> {
@@ -160,15 +183,15 @@ impl Checker<'_> {
 
     fn spectrum(&self, n_nodes: usize) -> Result<spectra::Request> {
         let spec = &self.experiment.spectrum;
-        let modes = match spec.modes {
-            WordOr::Word(_) => spectra::Modes::All,
+        let (modes, asked) = match spec.modes {
+            WordOr::Word(_) => (spectra::Modes::All, n_nodes),
             WordOr::Number(modes) => {
                 let modes = usize::try_from(modes).unwrap_or(usize::MAX);
                 if modes == 0 || modes > n_nodes {
                     let message = format!("is {modes}, but the network has modes 1 to {n_nodes}");
                     return Err(self.problem("spectrum.modes", message));
                 }
-                spectra::Modes::Leading(modes)
+                (spectra::Modes::Leading(modes), modes)
             }
         };
         let solver = match spec.solver {
@@ -176,10 +199,40 @@ impl Checker<'_> {
             SolverKind::Dense => spectra::SolverChoice::Dense,
             SolverKind::Arpack => spectra::SolverChoice::Arpack,
         };
+        self.solvable(solver, asked, n_nodes)?;
         Ok(spectra::Request { modes, solver, ..spectra::Request::default() })
     }
 
-    fn msf(&self, shortened: f64) -> Result<msf::Request> {
+    /// Refuses what the solvers cannot do for so many modes of so many nodes.
+    fn solvable(&self, solver: spectra::SolverChoice, modes: usize, n_nodes: usize) -> Result<()> {
+        if solver == spectra::SolverChoice::Arpack && modes == n_nodes {
+            let message = format!(
+                "is \"arpack\", which cannot find all {n_nodes} modes of a network, only fewer"
+            );
+            let hint = format!(
+                "set `spectrum.modes` to {} or less, or leave `spectrum.solver` out",
+                n_nodes - 1
+            );
+            return Err(self.problem("spectrum.solver", message).hint(hint));
+        }
+        let dense = match solver {
+            spectra::SolverChoice::Arpack => false,
+            spectra::SolverChoice::Dense => true,
+            // Half of all modes and more are found by the dense solver, too.
+            spectra::SolverChoice::Auto => modes > n_nodes / 2,
+        };
+        if dense && n_nodes > DENSE_MOST {
+            let message = format!(
+                "asks for {modes} modes of {n_nodes} nodes from the dense solver, whose matrices \
+                 take 8 N² bytes each; the most is {DENSE_MOST} nodes"
+            );
+            let hint = "set `spectrum.modes` to the number of leading modes you need";
+            return Err(self.problem("spectrum.modes", message).hint(hint));
+        }
+        Ok(())
+    }
+
+    fn msf(&self, coupling: Coupling) -> Result<msf::Request> {
         let spec = &self.experiment.msf;
         let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
         self.not_negative("msf.sigma", sigma[0])?;
@@ -188,17 +241,21 @@ impl Checker<'_> {
         self.positive("msf.average", spec.average)?;
         self.positive("msf.renormalise", spec.renormalise)?;
         self.positive("msf.relative_error", spec.relative_error)?;
-        let blocks = dynamics::BLOCKS as f64;
-        let least = blocks * spec.renormalise.max(spec.step) * shortened;
-        self.at_least("msf.average", spec.average, least)?;
+        let interval = (spec.renormalise / spec.step).round().max(1.0) * spec.step;
+        self.blocks("msf.average", spec.average, (interval, "`msf.renormalise` in whole steps"))?;
+        let times = Times {
+            step: spec.step,
+            transient: spec.transient / self.shortened,
+            average: spec.average / self.shortened,
+            renormalise: spec.renormalise,
+        };
+        let largest = sigma[sigma.len() - 1];
+        self.stable_rk4("msf", "`msf.sigma`", largest, (coupling, spec.step))?;
+        let exponents = sigma.len() as f64;
+        self.feasible("msf", exponents * (times.transient + times.average) / times.step)?;
         Ok(msf::Request {
             sigma,
-            times: Times {
-                step: spec.step,
-                transient: spec.transient,
-                average: spec.average / shortened,
-                renormalise: spec.renormalise,
-            },
+            times,
             refinement: msf::Refinement {
                 relative_error: spec.relative_error,
                 ..msf::Refinement::default()
@@ -221,12 +278,47 @@ impl Checker<'_> {
         &self,
         spec: &SweepSpec,
         network: &Network,
-        model: Model,
-        shortened: f64,
+        matrix: &CouplingMatrix,
+        node: msf::Node,
     ) -> Result<Sweep> {
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
-        self.not_negative("sweep.epsilon", epsilon[0])?;
+        let schedule = self.schedule(spec, epsilon[0])?;
+        let pairs = network.n_nodes() <= ALL_PAIRS;
+        self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
+        let method = self.method(spec);
+        if method == Method::Rk4 {
+            let fastest = epsilon[epsilon.len() - 1] * largest_diagonal(matrix);
+            let what = "`sweep.epsilon` times the strength of the strongest node";
+            self.stable_rk4("sweep", what, fastest, (node.coupling, spec.step))?;
+        }
+        let component = match &spec.component {
+            Some(name) => self.component("sweep.component", name, node.model)?,
+            None => 0,
+        };
+        let reference = match &spec.error_to {
+            Some(name) => Some(self.label("sweep.error_to", name, network)?),
+            None => None,
+        };
+        let mut clusters = self.clusters("sweep.clusters", &spec.clusters, network)?;
+        if clusters.is_empty() && reference.is_none() && network.n_nodes() > 1 {
+            clusters.push((0..network.n_nodes()).collect());
+        }
+        let first = self.experiment.seed;
+        Ok(Sweep {
+            epsilon,
+            seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
+            method,
+            schedule,
+            observables: Observables { component, pairs, reference, clusters },
+            synchronised_below: spec.synchronised_below,
+            kick: spec.kick,
+        })
+    }
+
+    fn schedule(&self, spec: &SweepSpec, least_epsilon: f64) -> Result<Schedule> {
+        self.not_negative("sweep.epsilon", least_epsilon)?;
         self.positive("sweep.step", spec.step)?;
+        self.not_negative("sweep.kick", spec.kick)?;
         self.not_negative("sweep.transient", spec.transient)?;
         self.positive("sweep.average", spec.average)?;
         self.positive("sweep.tolerance", spec.tolerance)?;
@@ -235,35 +327,13 @@ impl Checker<'_> {
         self.positive("sweep.seeds", spec.seeds as f64)?;
         let schedule = Schedule {
             step: spec.step,
-            transient: spec.transient / shortened,
-            average: spec.average / shortened,
+            transient: spec.transient / self.shortened,
+            average: spec.average / self.shortened,
             stride: spec.stride,
         };
-        let least = dynamics::BLOCKS as f64 * schedule.sampling_interval() * shortened;
-        self.at_least("sweep.average", spec.average, least)?;
-        let component = match &spec.component {
-            Some(name) => self.component("sweep.component", name, model)?,
-            None => 0,
-        };
-        let reference = match &spec.error_to {
-            Some(name) => Some(self.label("sweep.error_to", name, network)?),
-            None => None,
-        };
-        let clusters = self.clusters("sweep.clusters", &spec.clusters, network)?;
-        let first = self.experiment.seed;
-        Ok(Sweep {
-            epsilon,
-            seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
-            method: self.method(spec),
-            schedule,
-            observables: Observables {
-                component,
-                pairs: network.n_nodes() <= ALL_PAIRS,
-                reference,
-                clusters,
-            },
-            synchronised_below: spec.synchronised_below,
-        })
+        let interval = (schedule.sampling_interval(), "`sweep.step` × `sweep.stride`");
+        self.blocks("sweep.average", spec.average, interval)?;
+        Ok(schedule)
     }
 
     fn method(&self, spec: &SweepSpec) -> Method {
@@ -280,144 +350,11 @@ impl Checker<'_> {
             MethodKind::Dop853 => adaptive(AdaptiveOrder::Eight),
         }
     }
+}
 
-    fn label(&self, key: &str, name: &Name, network: &Network) -> Result<usize> {
-        network.node(&name.0).ok_or_else(|| {
-            let labels = network.labels();
-            let shown: Vec<_> = labels.iter().take(8).map(String::as_str).collect();
-            let more = if labels.len() > shown.len() { ", …" } else { "" };
-            let message = format!("names node \"{}\", which the network does not have", name.0);
-            self.problem(key, message).hint(format!("its nodes are {}{more}", shown.join(", ")))
-        })
-    }
-
-    /// Clusters of node labels as lists of nodes: two nodes or more each, none twice.
-    fn clusters(
-        &self,
-        key: &str,
-        named: &[Vec<Name>],
-        network: &Network,
-    ) -> Result<Vec<Vec<usize>>> {
-        let mut seen = BTreeSet::new();
-        let mut clusters = Vec::new();
-        for names in named {
-            let nodes: Vec<usize> =
-                names.iter().map(|name| self.label(key, name, network)).collect::<Result<_>>()?;
-            if nodes.len() < 2 {
-                return Err(self.problem(key, "has a cluster of fewer than two nodes"));
-            }
-            if let Some(&twice) = nodes.iter().find(|&&node| !seen.insert(node)) {
-                let label = &network.labels()[twice];
-                return Err(self.problem(key, format!("has node \"{label}\" twice")));
-            }
-            clusters.push(nodes);
-        }
-        Ok(clusters)
-    }
-
-    /// A grid's values: finite, ascending, and at least so many.
-    fn grid(&self, key: &str, grid: &Grid, least: usize) -> Result<Vec<f64>> {
-        if let Grid::Even(even) = grid
-            && even.points > 1_000_000
-        {
-            return Err(
-                self.problem(key, format!("has {} points; the most is 1000000", even.points))
-            );
-        }
-        let mut values = grid.values();
-        if values.len() < least {
-            let message = format!("has {} points, but needs {least} or more", values.len());
-            return Err(self.problem(key, message));
-        }
-        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            return Err(self.problem(key, format!("contains {value}; its values must be finite")));
-        }
-        if matches!(grid, Grid::List(_)) {
-            values.sort_by(f64::total_cmp);
-        }
-        match values.windows(2).find(|pair| pair[0] >= pair[1]) {
-            None => Ok(values),
-            Some(pair) => Err(self.problem(
-                key,
-                format!("goes from {} to {}; its values must ascend", pair[0], pair[1]),
-            )),
-        }
-    }
-
-    fn positive(&self, key: &str, value: f64) -> Result<()> {
-        if value.is_finite() && value > 0.0 {
-            return Ok(());
-        }
-        Err(self.problem(key, format!("is {value}, but must be finite and above zero")))
-    }
-
-    fn not_negative(&self, key: &str, value: f64) -> Result<()> {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
-        }
-        Err(self.problem(key, format!("is {value}, but must be finite and not negative")))
-    }
-
-    fn at_least(&self, key: &str, value: f64, least: f64) -> Result<()> {
-        // A hair of slack, since the least is itself a product of decimal fractions.
-        if value >= least * (1.0 - 1e-9) {
-            return Ok(());
-        }
-        Err(self.problem(key, format!("is {value}, but its standard error needs {least} or more")))
-    }
-
-    /// What a claim needs beside its quantity must be there, and must name what exists.
-    fn claims(&self, plan: &Plan) -> Result<()> {
-        for (name, claim) in &self.experiment.claims {
-            self.claim(name, claim, plan)?;
-        }
-        Ok(())
-    }
-
-    fn claim(&self, name: &str, claim: &ClaimSpec, plan: &Plan) -> Result<()> {
-        use Quantity as Q;
-        let key = format!("claims.{name}");
-        let bounds = [claim.equals.is_some(), claim.at_most.is_some(), claim.at_least.is_some()];
-        if bounds.iter().filter(|given| **given).count() != 1 {
-            let message = "must have exactly one of `equals`, `at_most`, `at_least`";
-            return Err(self.problem(&key, message));
-        }
-        let needs = |what: &str, given: bool, of: &[Quantity]| {
-            if of.contains(&claim.of) && !given {
-                return Err(self.problem(&key, format!("needs `where.{what}`")));
-            }
-            Ok(())
-        };
-        let at = &claim.at;
-        let by_epsilon = [Q::CascadeClusters, Q::SimulatedClusters, Q::SimulatedError];
-        let by_clusters =
-            [Q::CascadeOrder, Q::SimulatedOnset, Q::SimulatedOrder, Q::SimulatedError];
-        needs("epsilon", at.epsilon.is_some(), &by_epsilon)?;
-        needs("modes", at.modes.is_some(), &[Q::Eigenvectors, Q::CriticalCouplings])?;
-        needs("clusters", at.clusters.is_some(), &by_clusters)?;
-        let simulated =
-            [Q::SimulatedClusters, Q::SimulatedOnset, Q::SimulatedOrder, Q::SimulatedError];
-        if simulated.contains(&claim.of) && plan.sweep.is_none() {
-            return Err(self.problem(&key, "is about simulations, but there is no [sweep]"));
-        }
-        if let Some(clusters) = &at.clusters {
-            self.clusters(&format!("{key}.where.clusters"), clusters, &plan.network)?;
-        }
-        let n_nodes = plan.network.n_nodes();
-        let modes = at.modes.iter().flatten();
-        if let Some(mode) = modes.copied().find(|mode| !(1..=n_nodes).contains(mode)) {
-            let message = format!("is {mode}, but the modes are 1 to {n_nodes}");
-            return Err(self.problem(&format!("{key}.where.modes"), message));
-        }
-        if let (Some(epsilon), Some(sweep)) = (at.epsilon, &plan.sweep)
-            && simulated.contains(&claim.of)
-            && !sweep.epsilon.contains(&epsilon)
-        {
-            let message = format!("is {epsilon}, which is not a point of `sweep.epsilon`");
-            return Err(self.problem(&format!("{key}.where.epsilon"), message));
-        }
-        Ok(())
-    }
+/// max_i |w_ii| ≤ |λ_N|: no mode is damped faster than ε|λ_N|, and one is at least this fast.
+fn largest_diagonal(matrix: &CouplingMatrix) -> f64 {
+    matrix.symmetric().diag_iter().flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 
 /// The part of the specification that says what the figure shows.

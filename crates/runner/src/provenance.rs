@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use serde::Serialize;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::plan::Plan;
@@ -24,12 +23,12 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    pub fn new(plan: &Plan, experiment: &Value, took: Duration) -> Self {
+    pub fn new(plan: &Plan, took: Duration) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),
             commit: env!("EIGENSYNC_COMMIT"),
             seed: plan.experiment.seed,
-            plan_hash: plan_hash(plan, experiment),
+            plan_hash: plan_hash(plan),
             host_features: host_features(),
             threads: rayon::current_num_threads(),
             wall_time_s: (took.as_secs_f64() * 1e3).round() / 1e3,
@@ -37,9 +36,9 @@ impl Provenance {
     }
 }
 
-fn plan_hash(plan: &Plan, experiment: &Value) -> String {
+fn plan_hash(plan: &Plan) -> String {
     let mut hash = Sha256::new();
-    hash.update(experiment.to_string());
+    hash.update(plan.written.to_string());
     hash.update(plan.shortened.to_le_bytes());
     for (row, links) in plan.network.adjacency().outer_iterator().enumerate() {
         for (col, weight) in links.iter() {

@@ -112,19 +112,9 @@ pub struct SimulationRecord {
 }
 
 /// Collects a summary.
-pub fn summarise(
-    plan: &Plan,
-    findings: &Findings,
-    claims: Vec<Claim>,
-    took: Duration,
-) -> Result<Summary> {
+pub fn summarise(plan: &Plan, findings: &Findings, claims: Vec<Claim>, took: Duration) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
-    let text = fs::read_to_string(&plan.file)
-        .map_err(|error| Problem::from_error("cannot be read again", error).in_file(&plan.file))?;
-    let experiment: Value = toml::from_str(&text).map_err(|error| {
-        Problem::from_error("has changed during the run", error).in_file(&plan.file)
-    })?;
-    Ok(Summary {
+    Summary {
         id: plan.id.clone(),
         title: plan.experiment.title.clone(),
         source: plan.experiment.source.clone(),
@@ -155,9 +145,9 @@ pub fn summarise(
         cascade: state_records(plan, findings),
         simulations: simulation_records(plan, findings),
         claims,
-        provenance: Provenance::new(plan, &experiment, took),
-        experiment,
-    })
+        provenance: Provenance::new(plan, took),
+        experiment: plan.written.clone(),
+    }
 }
 
 fn msf_record(findings: &Findings) -> MsfRecord {
@@ -238,6 +228,15 @@ fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord>
 fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {
     let labels = labelled(clusters, &plan.network).into_iter();
     labels.map(|cluster| cluster.into_iter().map(str::to_owned).collect()).collect()
+}
+
+/// Sees to it that there is a folder for results in which folders can be made, before hours are spent
+/// on what could not be kept.
+pub fn check_writable(results: &Path) -> Result<()> {
+    fs::create_dir_all(results)
+        .and_then(|()| tempfile::Builder::new().prefix(".trial-").tempdir_in(results))
+        .and_then(tempfile::TempDir::close)
+        .map_err(|error| Problem::from_error("cannot be written to", error).in_file(results))
 }
 
 /// A results folder in the making.

@@ -39,7 +39,7 @@ pub fn write(
         crate::figures::png(&svg, drawing::DOTS_PER_INCH).map_err(|error| failed(&error))?,
     )?;
     folder.write("figure.svg", svg)?;
-    let summary = summarise(plan, findings, claims, started.elapsed())?;
+    let summary = summarise(plan, findings, claims, started.elapsed());
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;

@@ -159,11 +159,16 @@ pub struct SweepSpec {
     /// Relative and absolute tolerance of the adaptive methods.
     #[serde(default = "billionth")]
     pub tolerance: f64,
+    /// Relative size of the random kicks, one every unit of time, that keep nodes from becoming equal
+    /// to the last bit and then staying so for ever; 0 for none.
+    #[serde(default = "rounding_kick")]
+    pub kick: f64,
     /// Component whose differences are the errors; the first one by default.
     pub component: Option<String>,
     /// Label of the node to which δx_i is measured.
     pub error_to: Option<Name>,
-    /// Clusters within which δx^c_m is measured, in this order.
+    /// Clusters within which δx^c_m is measured, in this order. Without these and `error_to` it is
+    /// measured over the whole network.
     #[serde(default)]
     pub clusters: Vec<Vec<Name>>,
     /// Two nodes count as synchronised when δx_ij is below this, and a cluster when δx^c_m is, in the
@@ -346,7 +351,9 @@ impl Grid {
                 // Rounded to 12 digits, so that 0.1 … 1.3 reads 0.3 and not 0.30000000000000004.
                 let last = f64::from(points.saturating_sub(1));
                 let value = |k: u32| from + (to - from) * f64::from(k) / last;
-                (0..*points).map(value).map(|x| (x * 1e12).round() / 1e12).collect()
+                let rounded = |x: f64| (x * 1e12).round() / 1e12;
+                let shorten = |x: f64| if rounded(x).is_finite() { rounded(x) } else { x };
+                (0..*points).map(value).map(shorten).collect()
             }
         }
     }
@@ -531,6 +538,10 @@ fn per_mille() -> f64 {
 
 fn billionth() -> f64 {
     1e-9
+}
+
+fn rounding_kick() -> f64 {
+    dynamics::ROUNDING_KICK
 }
 
 fn thousand() -> f64 {

@@ -1,0 +1,268 @@
+//! Claims before anything is computed: each names an instance of its quantity that will exist, and
+//! states a value of the shape that the quantity has.
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use spectra::Modes;
+
+use super::{ALL_PAIRS, Checker, Plan};
+use crate::problem::{Result, plain};
+use crate::spec::{ClaimSpec, Name, Quantity};
+
+/// Whether a quantity is singled out by a key of `where`.
+#[derive(Clone, Copy, PartialEq)]
+enum Use {
+    Needed,
+    Allowed,
+    Meaningless,
+}
+
+/// The value that a claim states.
+enum Shape {
+    /// One number, or a list of so many; of any length where that is not known.
+    Numbers(Option<usize>),
+    /// A vector over the nodes for each mode.
+    Vectors,
+    Clusters,
+    /// Positions of the clusters in an order.
+    Order,
+}
+
+/// `equals` of a claim about numbers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
+impl Checker<'_> {
+    /// What a claim needs beside its quantity must be there, and must name what exists.
+    pub(super) fn claims(&self, plan: &Plan) -> Result<()> {
+        let claims = self.experiment.claims.iter();
+        claims.map(|(name, spec)| Claim { checker: self, name, spec, plan }.check()).collect()
+    }
+}
+
+struct Claim<'a> {
+    checker: &'a Checker<'a>,
+    name: &'a str,
+    spec: &'a ClaimSpec,
+    plan: &'a Plan,
+}
+
+impl Claim<'_> {
+    fn check(&self) -> Result<()> {
+        self.instance()?;
+        self.epsilon()?;
+        self.modes()?;
+        self.clusters()?;
+        self.value()?;
+        self.tolerance()
+    }
+
+    fn key(&self, key: &str) -> String {
+        format!("claims.{}{key}", self.name)
+    }
+
+    fn refuse<T>(&self, key: &str, message: impl std::fmt::Display) -> Result<T> {
+        Err(self.checker.problem(&self.key(key), message))
+    }
+
+    /// The keys of `where` are those that the quantity asks for, and simulations are there.
+    fn instance(&self) -> Result<()> {
+        use Quantity as Q;
+        use Use::{Allowed, Meaningless, Needed};
+        let [epsilon, modes, clusters] = match self.spec.of {
+            Q::Eigenvalues => [Meaningless, Allowed, Meaningless],
+            Q::Eigenvectors | Q::CriticalCouplings => [Meaningless, Needed, Meaningless],
+            Q::LyapunovIsolated | Q::SigmaC => [Meaningless; 3],
+            Q::CascadeClusters | Q::SimulatedClusters => [Needed, Meaningless, Meaningless],
+            Q::CascadeOrder | Q::SimulatedOrder | Q::SimulatedOnset => {
+                [Meaningless, Meaningless, Needed]
+            }
+            Q::SimulatedError => [Needed, Meaningless, Needed],
+        };
+        let at = &self.spec.at;
+        self.used("epsilon", epsilon, at.epsilon.is_some())?;
+        self.used("modes", modes, at.modes.is_some())?;
+        self.used("clusters", clusters, at.clusters.is_some())?;
+        match &self.plan.sweep {
+            None if self.is_simulated() => {
+                self.refuse("", "is about simulations, but there is no [sweep]")
+            }
+            Some(sweep) if self.is_simulated() && !sweep.observables.pairs => {
+                let message = format!(
+                    "needs the errors of all pairs of nodes, which are kept for networks of up to \
+                     {ALL_PAIRS} nodes"
+                );
+                self.refuse("", message)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn used(&self, key: &str, used: Use, given: bool) -> Result<()> {
+        match (used, given) {
+            (Use::Needed, false) => self.refuse("", format!("needs `where.{key}`")),
+            (Use::Meaningless, true) => {
+                self.refuse(&format!(".where.{key}"), "means nothing for this quantity")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn is_simulated(&self) -> bool {
+        use Quantity as Q;
+        matches!(
+            self.spec.of,
+            Q::SimulatedClusters | Q::SimulatedOnset | Q::SimulatedOrder | Q::SimulatedError
+        )
+    }
+
+    fn epsilon(&self) -> Result<()> {
+        let Some(epsilon) = self.spec.at.epsilon else { return Ok(()) };
+        self.checker.positive(&self.key(".where.epsilon"), epsilon)?;
+        let Some(sweep) = self.plan.sweep.as_ref().filter(|_| self.is_simulated()) else {
+            return Ok(());
+        };
+        if sweep.epsilon.contains(&epsilon) {
+            return Ok(());
+        }
+        let distance = |value: &f64| (value - epsilon).abs();
+        let nearest = sweep.epsilon.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let message = format!("is {}, which is not a point of `sweep.epsilon`", plain(epsilon));
+        let problem = self.checker.problem(&self.key(".where.epsilon"), message);
+        Err(match nearest {
+            Some(&nearest) => problem.hint(format!("the nearest point is {}", plain(nearest))),
+            None => problem,
+        })
+    }
+
+    fn modes(&self) -> Result<()> {
+        let Some(modes) = &self.spec.at.modes else { return Ok(()) };
+        let computed = match self.plan.spectrum.modes {
+            Modes::All => self.plan.network.n_nodes(),
+            Modes::Leading(modes) => modes,
+        };
+        if modes.is_empty() {
+            return self.refuse(".where.modes", "is empty");
+        }
+        self.checker.modes(&self.key(".where.modes"), modes, computed)
+    }
+
+    fn clusters(&self) -> Result<()> {
+        let Some(clusters) = &self.spec.at.clusters else { return Ok(()) };
+        if clusters.is_empty() {
+            return self.refuse(".where.clusters", "is empty");
+        }
+        let key = self.key(".where.clusters");
+        self.checker.clusters(&key, clusters, &self.plan.network).map(|_| ())
+    }
+
+    fn shape(&self) -> Shape {
+        use Quantity as Q;
+        let modes = self.spec.at.modes.as_ref().map(Vec::len);
+        match self.spec.of {
+            Q::Eigenvalues | Q::CriticalCouplings => Shape::Numbers(modes),
+            Q::LyapunovIsolated | Q::SigmaC | Q::SimulatedOnset | Q::SimulatedError => {
+                Shape::Numbers(Some(1))
+            }
+            Q::Eigenvectors => Shape::Vectors,
+            Q::CascadeClusters | Q::SimulatedClusters => Shape::Clusters,
+            Q::CascadeOrder | Q::SimulatedOrder => Shape::Order,
+        }
+    }
+
+    /// Exactly one of `equals`, `at_most` and `at_least`, of the quantity's shape.
+    fn value(&self) -> Result<()> {
+        let spec = self.spec;
+        let bounds = [spec.equals.is_some(), spec.at_most.is_some(), spec.at_least.is_some()];
+        if bounds.iter().filter(|given| **given).count() != 1 {
+            let message = "must have exactly one of `equals`, `at_most`, `at_least`";
+            return self.refuse("", message);
+        }
+        if let Some(bound) = spec.at_most.or(spec.at_least) {
+            return match self.shape() {
+                Shape::Numbers(_) if bound.is_finite() => Ok(()),
+                Shape::Numbers(_) => self.refuse("", "has a bound that is not finite"),
+                _ => self.refuse("", "is about no number, so that it needs `equals`"),
+            };
+        }
+        match self.shape() {
+            Shape::Numbers(count) => self.numbers(count),
+            Shape::Vectors => self.vectors(),
+            Shape::Clusters => {
+                let clusters: Vec<Vec<Name>> =
+                    self.equals("a list of clusters, such as [[1, 2], [3, 4]]")?;
+                let key = self.key(".equals");
+                self.checker.clusters(&key, &clusters, &self.plan.network).map(|_| ())
+            }
+            Shape::Order => self.order(),
+        }
+    }
+
+    fn equals<T: DeserializeOwned>(&self, expected: &str) -> Result<T> {
+        let read = self.spec.equals.clone().and_then(|value| value.try_into().ok());
+        read.map_or_else(|| self.refuse(".equals", format!("must be {expected}")), Ok)
+    }
+
+    fn numbers(&self, count: Option<usize>) -> Result<()> {
+        let numbers = match self.equals("a number or a list of numbers")? {
+            OneOrMany::One(number) => vec![number],
+            OneOrMany::Many(numbers) => numbers,
+        };
+        if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+            return self.refuse(".equals", format!("contains {number}, but must be finite"));
+        }
+        match count.filter(|&count| count != numbers.len()) {
+            None => Ok(()),
+            Some(count) => {
+                let message = format!("has {} values, expected {count}", numbers.len());
+                self.refuse(".equals", message)
+            }
+        }
+    }
+
+    fn vectors(&self) -> Result<()> {
+        let vectors: Vec<Vec<f64>> = self.equals("a list of vectors")?;
+        let modes = self.spec.at.modes.as_ref().map_or(0, Vec::len);
+        let n_nodes = self.plan.network.n_nodes();
+        if vectors.len() != modes || vectors.iter().any(|vector| vector.len() != n_nodes) {
+            let message = format!("must be {modes} vectors of {n_nodes} components each");
+            return self.refuse(".equals", message);
+        }
+        if vectors.iter().flatten().any(|component| !component.is_finite()) {
+            return self.refuse(".equals", "has a component that is not finite");
+        }
+        Ok(())
+    }
+
+    fn order(&self) -> Result<()> {
+        let mut positions: Vec<usize> = self.equals("a list of positions, such as [2, 1, 3]")?;
+        positions.sort_unstable();
+        let count = self.spec.at.clusters.as_ref().map_or(0, Vec::len);
+        if positions.into_iter().eq(1..=count) {
+            return Ok(());
+        }
+        self.refuse(".equals", format!("must have each of the positions 1 to {count} once"))
+    }
+
+    fn tolerance(&self) -> Result<()> {
+        let tolerances = [("abs_tol", self.spec.abs_tol), ("rel_tol", self.spec.rel_tol)];
+        for (name, tolerance) in tolerances {
+            let Some(tolerance) = tolerance else { continue };
+            let key = format!(".{name}");
+            self.checker.not_negative(&self.key(&key), tolerance)?;
+            let counts = match self.shape() {
+                Shape::Numbers(_) => self.spec.equals.is_some(),
+                Shape::Vectors => name == "abs_tol",
+                Shape::Clusters | Shape::Order => false,
+            };
+            if !counts {
+                return self.refuse(&key, "has no effect on this claim");
+            }
+        }
+        Ok(())
+    }
+}
