@@ -6,11 +6,17 @@
 mod coupling_matrix;
 mod error;
 pub mod formats;
+pub mod generators;
 mod network;
+mod nodes;
+pub mod prepare;
+mod raw_network;
 
 pub use coupling_matrix::{CouplingMatrix, Normalization};
-pub use error::GraphError;
+pub use error::{GeneratorError, GraphError, PrepareError};
 pub use network::Network;
+pub use nodes::{Group, numbered_labels};
+pub use raw_network::RawNetwork;
 
 /// Sparse matrix in compressed-row form with 32-bit column indices.
 ///

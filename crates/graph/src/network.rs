@@ -1,9 +1,9 @@
-//! A network: sparse adjacency a_ij ≥ 0 (the strength with which j drives i) and node labels.
+//! A network: sparse adjacency a_ij = a_ji ≥ 0 (the strength with which j drives i), a_ii = 0, and
+//! what is known of its nodes: labels, groups, positions.
 
 use std::collections::HashSet;
 
-use sprs::TriMatI;
-
+use crate::nodes::{Group, Nodes};
 use crate::{GraphError, SparseMatrix};
 
 /// A weighted network without self-loops.
@@ -13,11 +13,13 @@ use crate::{GraphError, SparseMatrix};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     adjacency: SparseMatrix,
-    labels: Vec<String>,
+    nodes: Nodes,
 }
 
 impl Network {
     /// An undirected network from its links `(i, j, weight)`, each given once.
+    ///
+    /// O(N + L log k) for N nodes and L links, at most k at a node.
     ///
     /// # Errors
     /// [`GraphError::Empty`] without nodes, [`GraphError::TooManyNodes`] beyond 32-bit numbers,
@@ -28,26 +30,52 @@ impl Network {
         labels: Vec<String>,
         links: &[(usize, usize, f64)],
     ) -> Result<Self, GraphError> {
-        let n_nodes = labels.len();
-        check_labels(&labels)?;
-        let mut entries = TriMatI::with_capacity((n_nodes, n_nodes), 2 * links.len());
+        let nodes = Nodes::new(labels)?;
         for &(i, j, weight) in links {
-            check_link(&labels, i, j, weight)?;
-            entries.add_triplet(i, j, weight);
-            entries.add_triplet(j, i, weight);
+            nodes.check_link(i, j, weight)?;
         }
-        let adjacency: SparseMatrix = entries.to_csr();
-        if adjacency.nnz() != 2 * links.len() {
-            let (from, to) = duplicate(links).expect("to_csr merges only links given twice");
-            let (from, to) = (labels[from].clone(), labels[to].clone());
+        let both_directions =
+            links.iter().flat_map(|&(i, j, weight)| [(i, j, weight), (j, i, weight)]);
+        let Ok(adjacency) = assemble(nodes.n_nodes(), both_directions) else {
+            let (i, j) = first_repeated(links).expect("only a link given twice repeats an entry");
+            let (from, to) = (nodes.labels()[i].clone(), nodes.labels()[j].clone());
             return Err(GraphError::DuplicateLink { from, to });
-        }
-        Ok(Self { adjacency, labels })
+        };
+        Ok(Self { adjacency, nodes })
+    }
+
+    /// A network from an adjacency matrix that is sound by construction.
+    pub(crate) fn from_parts(adjacency: SparseMatrix, nodes: Nodes) -> Self {
+        Self { adjacency, nodes }
+    }
+
+    pub(crate) fn into_parts(self) -> (SparseMatrix, Nodes) {
+        (self.adjacency, self.nodes)
+    }
+
+    /// The same network with its nodes divided into groups; a node may be in none.
+    ///
+    /// # Errors
+    /// [`GraphError::EmptyGroup`], [`GraphError::DuplicateGroup`] (two of one name),
+    /// [`GraphError::GroupOutOfRange`], and [`GraphError::RepeatedInGroup`] or
+    /// [`GraphError::NodeInTwoGroups`] for a node that is listed twice.
+    pub fn with_groups(mut self, groups: Vec<Group>) -> Result<Self, GraphError> {
+        self.nodes.set_groups(groups)?;
+        Ok(self)
+    }
+
+    /// The same network with a point of space for every node, in any unit (brains: mm).
+    ///
+    /// # Errors
+    /// [`GraphError::WrongPositionCount`] and [`GraphError::BadPosition`] (not finite).
+    pub fn with_positions(mut self, positions: Vec<[f64; 3]>) -> Result<Self, GraphError> {
+        self.nodes.set_positions(positions)?;
+        Ok(self)
     }
 
     /// Number of nodes N.
     pub fn n_nodes(&self) -> usize {
-        self.labels.len()
+        self.nodes.n_nodes()
     }
 
     /// Number of undirected links L.
@@ -62,12 +90,22 @@ impl Network {
 
     /// Node labels, in node order.
     pub fn labels(&self) -> &[String] {
-        &self.labels
+        self.nodes.labels()
+    }
+
+    /// Groups of nodes, disjoint, in the order given; none where the network has no division.
+    pub fn groups(&self) -> &[Group] {
+        self.nodes.groups()
+    }
+
+    /// Positions (x, y, z) of all nodes in node order, where they are known.
+    pub fn positions(&self) -> Option<&[[f64; 3]]> {
+        self.nodes.positions()
     }
 
     /// The node called `label`, if there is one.
     pub fn node(&self, label: &str) -> Option<usize> {
-        self.labels.iter().position(|l| l == label)
+        self.labels().iter().position(|l| l == label)
     }
 
     /// Strength k_i = Σ_j a_ij of every node (the degree where links have unit weight).
@@ -86,63 +124,66 @@ impl Network {
 
     /// Connected components, each a sorted list of nodes, ordered by their first node.
     pub fn components(&self) -> Vec<Vec<usize>> {
-        let mut seen = vec![false; self.n_nodes()];
-        let mut components = Vec::new();
-        for start in 0..self.n_nodes() {
-            if seen[start] {
-                continue;
-            }
-            seen[start] = true;
-            let mut component = vec![start];
-            let mut next = 0;
-            while next < component.len() {
-                let row = self.adjacency.outer_view(component[next]).expect("a node has a row");
-                for &j in row.indices() {
-                    if !std::mem::replace(&mut seen[j as usize], true) {
-                        component.push(j as usize);
-                    }
-                }
-                next += 1;
-            }
-            component.sort_unstable();
-            components.push(component);
+        components(&self.adjacency)
+    }
+}
+
+/// Compressed rows, columns ascending, from entries in any order, or the first repeated entry.
+///
+/// A counting sort by rows, so that a node with very many links costs no more than many nodes.
+pub(crate) fn assemble(
+    n_nodes: usize,
+    entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
+) -> Result<SparseMatrix, (usize, usize)> {
+    let mut row_starts = vec![0; n_nodes + 1];
+    entries.clone().for_each(|(i, _, _)| row_starts[i + 1] += 1);
+    for i in 0..n_nodes {
+        row_starts[i + 1] += row_starts[i];
+    }
+    let mut free = row_starts.clone();
+    let mut row_entries = vec![(0u32, 0.0); row_starts[n_nodes]];
+    for (i, j, value) in entries {
+        row_entries[free[i]] = (u32::try_from(j).expect("nodes are numbered in 32 bits"), value);
+        free[i] += 1;
+    }
+    for i in 0..n_nodes {
+        let row = &mut row_entries[row_starts[i]..row_starts[i + 1]];
+        row.sort_unstable_by_key(|&(column, _)| column);
+        if let Some(pair) = row.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            return Err((i, pair[0].0 as usize));
         }
-        components
     }
+    let (columns, values) = row_entries.into_iter().unzip();
+    Ok(SparseMatrix::new((n_nodes, n_nodes), row_starts, columns, values))
 }
 
-fn check_labels(labels: &[String]) -> Result<(), GraphError> {
-    let n_nodes = labels.len();
-    if n_nodes == 0 {
-        return Err(GraphError::Empty);
+/// Sets of nodes between which links lead, whatever their direction, in a matrix that is symmetric.
+pub(crate) fn components(symmetric: &SparseMatrix) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; symmetric.rows()];
+    let mut components = Vec::new();
+    for start in 0..symmetric.rows() {
+        if std::mem::replace(&mut seen[start], true) {
+            continue;
+        }
+        let mut component = vec![start];
+        let mut next = 0;
+        while next < component.len() {
+            let row = symmetric.outer_view(component[next]).expect("a node has a row");
+            for &j in row.indices() {
+                if !std::mem::replace(&mut seen[j as usize], true) {
+                    component.push(j as usize);
+                }
+            }
+            next += 1;
+        }
+        component.sort_unstable();
+        components.push(component);
     }
-    if u32::try_from(n_nodes).is_err() {
-        return Err(GraphError::TooManyNodes { n_nodes });
-    }
-    let mut seen = HashSet::with_capacity(n_nodes);
-    match labels.iter().find(|&label| !seen.insert(label)) {
-        Some(label) => Err(GraphError::DuplicateLabel { label: label.clone() }),
-        None => Ok(()),
-    }
-}
-
-fn check_link(labels: &[String], i: usize, j: usize, weight: f64) -> Result<(), GraphError> {
-    let n_nodes = labels.len();
-    if let Some(&node) = [i, j].iter().find(|&&node| node >= n_nodes) {
-        return Err(GraphError::NodeOutOfRange { node, n_nodes });
-    }
-    if i == j {
-        return Err(GraphError::SelfLoop { node: labels[i].clone() });
-    }
-    if !(weight.is_finite() && weight > 0.0) {
-        let (from, to) = (labels[i].clone(), labels[j].clone());
-        return Err(GraphError::BadWeight { from, to, weight });
-    }
-    Ok(())
+    components
 }
 
 /// The first link that repeats an earlier one in either direction.
-fn duplicate(links: &[(usize, usize, f64)]) -> Option<(usize, usize)> {
+fn first_repeated(links: &[(usize, usize, f64)]) -> Option<(usize, usize)> {
     let mut seen = HashSet::new();
     links.iter().find(|&&(i, j, _)| !seen.insert((i.min(j), i.max(j)))).map(|&(i, j, _)| (i, j))
 }

@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, ErrorKind, Read};
 
 use thiserror::Error;
 
-/// Longest line that a reader accepts, in bytes without its line break.
+/// Longest line that most readers accept, in bytes without its line break.
 pub const MAX_LINE_BYTES: usize = 64 * 1024;
 
 /// Longest quotation of a file in an error message, in characters.
@@ -24,11 +24,13 @@ pub enum TextError {
         /// What the source said.
         source: std::io::Error,
     },
-    /// A line beyond [`MAX_LINE_BYTES`]. No more than that of it has been kept.
-    #[error("line {line} is longer than {MAX_LINE_BYTES} bytes; it begins with `{start}`")]
+    /// A line beyond the reader's limit. No more than that of it has been kept.
+    #[error("line {line} is longer than {limit} bytes; it begins with `{start}`")]
     LineTooLong {
         /// The line.
         line: usize,
+        /// Longest line that the reader accepts, in bytes.
+        limit: usize,
         /// Its first characters.
         start: String,
     },
@@ -49,11 +51,18 @@ pub(crate) struct Lines<R> {
     source: BufReader<R>,
     buffer: Vec<u8>,
     line: usize,
+    limit: usize,
 }
 
 impl<R: Read> Lines<R> {
     pub(crate) fn new(source: R) -> Self {
-        Self { source: BufReader::with_capacity(MAX_LINE_BYTES, source), buffer: vec![], line: 0 }
+        Self::with_limit(source, MAX_LINE_BYTES)
+    }
+
+    /// Lines of at most `limit` bytes.
+    pub(crate) fn with_limit(source: R, limit: usize) -> Self {
+        let source = BufReader::with_capacity(MAX_LINE_BYTES, source);
+        Self { source, buffer: vec![], line: 0, limit }
     }
 
     /// The next line and its number, or none at the end of the source.
@@ -61,18 +70,45 @@ impl<R: Read> Lines<R> {
         self.line += 1;
         self.buffer.clear();
         if !self.fill()? {
+            self.line -= 1;
             return Ok(None);
         }
         if self.buffer.last() == Some(&b'\r') {
             self.buffer.pop();
         }
-        if self.buffer.len() > MAX_LINE_BYTES {
+        if self.buffer.len() > self.limit {
             return Err(self.too_long());
         }
-        let line = self.line;
-        let text = std::str::from_utf8(&self.buffer).map_err(|e| self.not_utf8(e.valid_up_to()))?;
-        let bare = if line == 1 { text.strip_prefix(BYTE_ORDER_MARK) } else { None };
-        Ok(Some((line, bare.unwrap_or(text))))
+        match std::str::from_utf8(&self.buffer) {
+            Ok(_) => Ok(Some((self.line, self.text()))),
+            Err(error) => Err(self.not_utf8(error.valid_up_to())),
+        }
+    }
+
+    /// The next line that is wanted and its number, or none at the end of the source.
+    pub(crate) fn next_where(
+        &mut self,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<Option<(usize, &str)>, TextError> {
+        while let Some((line, text)) = self.next_line()? {
+            if wanted(text) {
+                // Asked for again, since a borrow that one turn may hand out lasts for every turn.
+                return Ok(Some((line, self.text())));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Number of lines taken so far.
+    pub(crate) fn n_lines(&self) -> usize {
+        self.line
+    }
+
+    /// The line that was taken last.
+    fn text(&self) -> &str {
+        let text = std::str::from_utf8(&self.buffer).expect("a line that was returned is UTF-8");
+        let bare = if self.line == 1 { text.strip_prefix(BYTE_ORDER_MARK) } else { None };
+        bare.unwrap_or(text)
     }
 
     /// Takes bytes up to the next line feed; false when the source had none left.
@@ -91,7 +127,7 @@ impl<R: Read> Lines<R> {
             let end = chunk.iter().position(|&b| b == b'\n');
             let part = &chunk[..end.unwrap_or(chunk.len())];
             // One byte more than the limit may be the carriage return of a CRLF.
-            if self.buffer.len() + part.len() > MAX_LINE_BYTES + 1 {
+            if self.buffer.len() + part.len() > self.limit + 1 {
                 return Err(self.too_long());
             }
             self.buffer.extend_from_slice(part);
@@ -105,7 +141,8 @@ impl<R: Read> Lines<R> {
 
     fn too_long(&self) -> TextError {
         let start = &self.buffer[..self.buffer.len().min(4 * MAX_QUOTED_CHARS)];
-        TextError::LineTooLong { line: self.line, start: quoted(&String::from_utf8_lossy(start)) }
+        let start = quoted(&String::from_utf8_lossy(start));
+        TextError::LineTooLong { line: self.line, limit: self.limit, start }
     }
 
     fn not_utf8(&self, valid_up_to: usize) -> TextError {

@@ -1,0 +1,400 @@
+//! Matrix Market exchange format: sparse (`coordinate`) and full (`array`) matrices as text.
+//!
+//! ```text
+//! %%MatrixMarket matrix coordinate real symmetric
+//! % comments
+//! 3 3 2          rows, columns, entries that follow
+//! 2 1 0.5        row, column (from 1), value; no value where the field is `pattern`
+//! 3 2 1.5
+//! ```
+//!
+//! An `array` states rows and columns only and lists its values column by column; a symmetric one
+//! from the diagonal down.
+//!
+//! Source: Boisvert, Pozo & Remington, "The Matrix Market exchange formats: initial design",
+//! NISTIR 5935 (1996).
+
+use std::io::Read;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use super::matrix::MatrixBuilder;
+use super::text::{Lines, quoted};
+use super::{Layout, MatrixError, TextError};
+use crate::RawNetwork;
+
+/// Why a Matrix Market file could not be read. Lines and columns of text count from 1.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MatrixMarketError {
+    /// The source failed, or is not text.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The first line is not a header.
+    #[error("line 1: expected `%%MatrixMarket matrix FORMAT FIELD SYMMETRY`, found `{found}`")]
+    NoHeader {
+        /// How the line begins.
+        found: String,
+    },
+    /// A word of the header that this reader does not know, or that makes no network.
+    #[error("line 1: expected {expected}, found `{found}`")]
+    BadHeader {
+        /// Which words could stand there.
+        expected: &'static str,
+        /// What does.
+        found: String,
+    },
+    /// The file ends before the line that gives the size.
+    #[error("expected a line with {expected}, found the end of the file after line {lines}")]
+    NoSize {
+        /// The numbers expected.
+        expected: &'static str,
+        /// Number of lines read.
+        lines: usize,
+    },
+    /// A line with too few or too many values.
+    #[error("line {line}: expected {expected}, found {found} values")]
+    WrongCount {
+        /// The line.
+        line: usize,
+        /// The values expected.
+        expected: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// A value that is no number of the kind that belongs there.
+    #[error("line {line}, column {column}: expected {expected}, found `{found}`")]
+    BadNumber {
+        /// The line.
+        line: usize,
+        /// Where the value begins.
+        column: usize,
+        /// What the value should be.
+        expected: &'static str,
+        /// How the value begins.
+        found: String,
+    },
+    /// An index beyond the size that the file states.
+    #[error("line {line}, column {column}: expected an index from 1 to {size}, found {found}")]
+    IndexOutOfRange {
+        /// The line.
+        line: usize,
+        /// Where the index begins.
+        column: usize,
+        /// Number of rows or columns.
+        size: u64,
+        /// The index.
+        found: u64,
+    },
+    /// A symmetric matrix that is not square.
+    #[error("line {line}: a symmetric matrix cannot have {rows} rows and {columns} columns")]
+    SymmetricNotSquare {
+        /// The line.
+        line: usize,
+        /// Number of rows.
+        rows: u64,
+        /// Number of columns.
+        columns: u64,
+    },
+    /// Fewer entries than the size line states.
+    #[error("expected {expected} entries, found {found} before the file ends in line {lines}")]
+    TooFewEntries {
+        /// Number of entries stated.
+        expected: u64,
+        /// Number of entries found.
+        found: u64,
+        /// Number of lines read.
+        lines: usize,
+    },
+    /// More entries than the size line states.
+    #[error("line {line}: expected the end of the file after {expected} entries, found `{found}`")]
+    TooManyEntries {
+        /// The first line too many.
+        line: usize,
+        /// Number of entries stated.
+        expected: u64,
+        /// How the line begins.
+        found: String,
+    },
+    /// The matrix is not a network.
+    #[error(transparent)]
+    Matrix(#[from] MatrixError),
+}
+
+/// Reads a network from a Matrix Market file; the module describes the format.
+///
+/// A `symmetric` matrix gives an undirected network and may list either triangle, each entry once;
+/// a `general` one is directed. Nodes are labelled "1", "2", … by their rows. Entries of zero are
+/// no links.
+///
+/// # Errors
+/// [`MatrixMarketError`], naming the first line at fault.
+pub fn read(source: impl Read, layout: &Layout) -> Result<RawNetwork, MatrixMarketError> {
+    let mut lines = Lines::new(source);
+    let header = match lines.next_line()? {
+        Some((_, text)) => Header::parse(text)?,
+        None => return Err(MatrixMarketError::NoHeader { found: String::new() }),
+    };
+    let mut file = File { lines, header };
+    let size = file.size()?;
+    let mut builder = MatrixBuilder::new(size.rows, size.columns, layout)?;
+    match header.is_sparse {
+        true => file.read_coordinates(&size, &mut builder)?,
+        false => file.read_array(&size, &mut builder)?,
+    }
+    file.expect_end(size.entries)?;
+    Ok(builder.finish(!header.is_symmetric)?)
+}
+
+#[derive(Clone, Copy)]
+struct Header {
+    is_sparse: bool,
+    field: Field,
+    is_symmetric: bool,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Field {
+    Real,
+    Integer,
+    Pattern,
+}
+
+/// Numbers of the line that follows the comments.
+struct Size {
+    rows: u64,
+    columns: u64,
+    entries: u64,
+}
+
+impl Header {
+    fn parse(text: &str) -> Result<Self, MatrixMarketError> {
+        let words: Vec<String> = text.split_whitespace().map(str::to_ascii_lowercase).collect();
+        let [banner, object, format, field, symmetry] = words.as_slice() else {
+            return Err(MatrixMarketError::NoHeader { found: quoted(text) });
+        };
+        if banner != "%%matrixmarket" {
+            return Err(MatrixMarketError::NoHeader { found: quoted(text) });
+        }
+        choose(object, "`matrix`", &[("matrix", ())])?;
+        let formats = [("coordinate", true), ("array", false)];
+        let is_sparse = choose(format, "`coordinate` or `array`", &formats)?;
+        let fields = [
+            ("real", Field::Real),
+            ("double", Field::Real),
+            ("integer", Field::Integer),
+            ("unsigned-integer", Field::Integer),
+            ("pattern", Field::Pattern),
+        ];
+        let known = if is_sparse { &fields[..] } else { &fields[..4] };
+        let names = match is_sparse {
+            true => "`real`, `integer` or `pattern`",
+            false => "`real` or `integer`, as values of an array",
+        };
+        let field = choose(field, names, known)?;
+        let symmetries = [("symmetric", true), ("general", false)];
+        let is_symmetric = choose(symmetry, "`general` or `symmetric`", &symmetries)?;
+        Ok(Self { is_sparse, field, is_symmetric })
+    }
+}
+
+fn choose<T: Copy>(
+    word: &str,
+    expected: &'static str,
+    known: &[(&str, T)],
+) -> Result<T, MatrixMarketError> {
+    match known.iter().find(|(name, _)| *name == word) {
+        Some(&(_, meaning)) => Ok(meaning),
+        None => Err(MatrixMarketError::BadHeader { expected, found: quoted(word) }),
+    }
+}
+
+/// The part of a file after its header.
+struct File<R> {
+    lines: Lines<R>,
+    header: Header,
+}
+
+impl<R: Read> File<R> {
+    /// The next line that is neither blank nor a comment.
+    fn next_line(&mut self) -> Result<Option<(usize, &str)>, TextError> {
+        self.lines.next_where(|text| !text.trim().is_empty() && !text.starts_with('%'))
+    }
+
+    fn size(&mut self) -> Result<Size, MatrixMarketError> {
+        let header = self.header;
+        let (count, expected) = match header.is_sparse {
+            true => (3, "the numbers of rows, columns and entries"),
+            false => (2, "the numbers of rows and columns"),
+        };
+        let Some((line, text)) = self.next_line()? else {
+            return Err(MatrixMarketError::NoSize { expected, lines: self.lines.n_lines() });
+        };
+        let words = words(line, text, count, expected)?;
+        let (rows, columns) = (words[0].size()?, words[1].size()?);
+        if header.is_symmetric && rows != columns {
+            return Err(MatrixMarketError::SymmetricNotSquare { line, rows, columns });
+        }
+        // A count beyond 64 bits saturates: so many nodes are refused before the first value.
+        let entries = match (header.is_sparse, header.is_symmetric) {
+            (true, _) => words[2].size()?,
+            (false, true) => u64::try_from(triangle(rows)).unwrap_or(u64::MAX),
+            (false, false) => rows.saturating_mul(columns),
+        };
+        Ok(Size { rows, columns, entries })
+    }
+
+    fn read_coordinates(
+        &mut self,
+        size: &Size,
+        builder: &mut MatrixBuilder,
+    ) -> Result<(), MatrixMarketError> {
+        let header = self.header;
+        let (count, expected) = match header.field {
+            Field::Pattern => (2, "a row and a column"),
+            Field::Real | Field::Integer => (3, "a row, a column and a value"),
+        };
+        for found in 0..size.entries {
+            let Some((line, text)) = self.next_line()? else {
+                return Err(self.too_few(size.entries, found));
+            };
+            let words = words(line, text, count, expected)?;
+            let (row, column) = (words[0].index(size.rows)?, words[1].index(size.columns)?);
+            let value = match header.field {
+                Field::Pattern => 1.0,
+                field => words[2].value(field, builder.takes(row, column))?,
+            };
+            builder.add(row, column, value)?;
+            if header.is_symmetric && row != column {
+                builder.add(column, row, value)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn read_array(
+        &mut self,
+        size: &Size,
+        builder: &mut MatrixBuilder,
+    ) -> Result<(), MatrixMarketError> {
+        let header = self.header;
+        let mut found = 0;
+        for column in 0..size.columns {
+            let first_row = if header.is_symmetric { column } else { 0 };
+            for row in first_row..size.rows {
+                let Some((line, text)) = self.next_line()? else {
+                    return Err(self.too_few(size.entries, found));
+                };
+                let words = words(line, text, 1, "one value")?;
+                let (row, column) = (as_index(row), as_index(column));
+                let value = words[0].value(header.field, builder.takes(row, column))?;
+                builder.add(row, column, value)?;
+                if header.is_symmetric && row != column {
+                    builder.add(column, row, value)?;
+                }
+                found += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn too_few(&self, expected: u64, found: u64) -> MatrixMarketError {
+        MatrixMarketError::TooFewEntries { expected, found, lines: self.lines.n_lines() }
+    }
+
+    fn expect_end(&mut self, expected: u64) -> Result<(), MatrixMarketError> {
+        match self.next_line()? {
+            None => Ok(()),
+            Some((line, text)) => {
+                let found = quoted(text);
+                Err(MatrixMarketError::TooManyEntries { line, expected, found })
+            }
+        }
+    }
+}
+
+/// Entries of a symmetric matrix on and below its diagonal.
+fn triangle(rows: u64) -> u128 {
+    u128::from(rows) * (u128::from(rows) + 1) / 2
+}
+
+/// Rows and columns fit: the size of a square matrix, or of one with a block, has been checked.
+fn as_index(index: u64) -> usize {
+    usize::try_from(index).unwrap_or(usize::MAX)
+}
+
+/// A value of a line.
+#[derive(Clone, Copy, Default)]
+struct Word<'a> {
+    line: usize,
+    text: &'a str,
+    offset: usize,
+    word: &'a str,
+}
+
+/// The values of a line, of which there must be `count`, three at most.
+fn words<'a>(
+    line: usize,
+    text: &'a str,
+    count: usize,
+    expected: &'static str,
+) -> Result<[Word<'a>; 3], MatrixMarketError> {
+    let mut words = [Word::default(); 3];
+    let mut found = 0;
+    for word in text.split_whitespace() {
+        let offset = word.as_ptr().addr() - text.as_ptr().addr();
+        if let Some(place) = words.get_mut(found) {
+            *place = Word { line, text, offset, word };
+        }
+        found += 1;
+    }
+    match found == count {
+        true => Ok(words),
+        false => Err(MatrixMarketError::WrongCount { line, expected, found }),
+    }
+}
+
+impl Word<'_> {
+    fn size(&self) -> Result<u64, MatrixMarketError> {
+        self.parse("a whole number")
+    }
+
+    /// An index from 0, written from 1.
+    fn index(&self, size: u64) -> Result<usize, MatrixMarketError> {
+        let found: u64 = self.parse("an index")?;
+        if (1..=size).contains(&found) {
+            return Ok(as_index(found - 1));
+        }
+        let (line, column) = (self.line, self.column());
+        Err(MatrixMarketError::IndexOutOfRange { line, column, size, found })
+    }
+
+    /// A value; it must be finite where the network will hold it.
+    fn value(&self, field: Field, is_taken: bool) -> Result<f64, MatrixMarketError> {
+        if field == Field::Integer {
+            // Whole numbers beyond 2^53 round as they do in every program that computes with them.
+            return Ok(self.parse::<i128>("a whole number")? as f64);
+        }
+        let expected = "a finite number";
+        let value: f64 = self.parse(expected)?;
+        match value.is_finite() || !is_taken {
+            true => Ok(value),
+            false => Err(self.bad_number(expected)),
+        }
+    }
+
+    fn parse<T: FromStr>(&self, expected: &'static str) -> Result<T, MatrixMarketError> {
+        self.word.parse().map_err(|_| self.bad_number(expected))
+    }
+
+    fn bad_number(&self, expected: &'static str) -> MatrixMarketError {
+        let (line, column, found) = (self.line, self.column(), quoted(self.word));
+        MatrixMarketError::BadNumber { line, column, expected, found }
+    }
+
+    /// Where the value begins, in characters from 1.
+    fn column(&self) -> usize {
+        self.text[..self.offset].chars().count() + 1
+    }
+}
