@@ -14,6 +14,7 @@ use msf::StableRegion;
 use spectra::Spectrum;
 
 use crate::distance::{check_synchronous_mode, transverse};
+use crate::linkage::clusters_of_each;
 use crate::{ClusteringError, EigenvectorDistance, Partition};
 
 /// Couplings closer than this, relatively, are one: they differ by rounding.
@@ -42,6 +43,13 @@ pub struct State {
     pub truncated: bool,
 }
 
+impl State {
+    /// Whether a coupling strength lies in the range of this state, its upper end included.
+    pub fn holds_at(&self, epsilon: f64) -> bool {
+        epsilon > self.epsilon.0 && self.epsilon.1.is_none_or(|to| epsilon <= to)
+    }
+}
+
 /// Every predicted state, from the largest couplings down.
 ///
 /// The ranges follow one another without gaps from infinity to ε = 0; neighbours differ in their
@@ -65,24 +73,22 @@ pub fn cascade(
     check_synchronous_mode(spectrum)?;
     let eigenspaces = Eigenspace::of(spectrum);
     let lowest = lowest_coupling(spectrum, &eigenspaces, stable)?;
-    let mut states: Vec<State> = Vec::new();
-    for (from, to) in ranges(&eigenspaces, stable, lowest) {
-        let unstable_modes = unstable_modes(&eigenspaces, stable, inside(from, to));
-        match states.last_mut() {
-            Some(last) if last.unstable_modes == unstable_modes => last.epsilon.0 = from,
-            last => {
-                let clusters = clusters(spectrum, &unstable_modes, rule, last.as_deref())?;
-                states.push(State {
-                    epsilon: (from, to),
-                    unstable_modes,
-                    clusters,
-                    truncated: false,
-                });
-            }
+    let stretches = stretches(&eigenspaces, stable, lowest);
+    let clusters = match rule {
+        ClusterRule::Exact => exact_clusters(spectrum, &stretches)?,
+        ClusterRule::Threshold(threshold) => {
+            let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
+            clusters_of_each(spectrum, &sets, threshold)?
         }
-    }
-    states.last_mut().expect("there is at least one range").truncated = lowest > 0.0;
-    Ok(states)
+    };
+    let last = stretches.len() - 1;
+    let state = |(number, (stretch, clusters)): (usize, (Stretch, Partition))| State {
+        epsilon: stretch.epsilon,
+        unstable_modes: stretch.unstable_modes,
+        clusters,
+        truncated: number == last && lowest > 0.0,
+    };
+    Ok(stretches.into_iter().zip(clusters).enumerate().map(state).collect())
 }
 
 /// The states with neighbours of equal clusters merged, as an observer of clusters sees them.
@@ -178,25 +184,46 @@ fn unstable_modes(eigenspaces: &[Eigenspace], stable: &StableRegion, epsilon: f6
         .collect()
 }
 
-fn clusters(
+/// A range of ε in which the same modes are unstable.
+struct Stretch {
+    epsilon: (f64, Option<f64>),
+    unstable_modes: Vec<usize>,
+}
+
+/// The stretches from the largest ε down, at least one; neighbours differ in their modes.
+fn stretches(eigenspaces: &[Eigenspace], stable: &StableRegion, lowest: f64) -> Vec<Stretch> {
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for (from, to) in ranges(eigenspaces, stable, lowest) {
+        let unstable_modes = unstable_modes(eigenspaces, stable, inside(from, to));
+        match stretches.last_mut() {
+            Some(last) if last.unstable_modes == unstable_modes => last.epsilon.0 = from,
+            _ => stretches.push(Stretch { epsilon: (from, to), unstable_modes }),
+        }
+    }
+    stretches
+}
+
+/// [`EigenvectorDistance::exact_clusters`] of every stretch.
+fn exact_clusters(
     spectrum: &Spectrum,
-    unstable_modes: &[usize],
-    rule: ClusterRule,
-    above: Option<&State>,
-) -> Result<Partition, ClusteringError> {
-    // Further unstable modes only split exact clusters: where none is left, none comes back.
-    let is_settled = |above: &&State| {
-        let n_nodes = above.clusters.n_nodes();
-        rule == ClusterRule::Exact
-            && above.clusters.n_clusters() == n_nodes
-            && above.unstable_modes.iter().all(|mode| unstable_modes.binary_search(mode).is_ok())
-    };
-    if let Some(above) = above.filter(is_settled) {
-        return Ok(above.clusters.clone());
+    stretches: &[Stretch],
+) -> Result<Vec<Partition>, ClusteringError> {
+    let n_nodes = spectrum.eigenvectors[0].len();
+    let mut found: Vec<Partition> = Vec::new();
+    for (number, stretch) in stretches.iter().enumerate() {
+        // Further unstable modes only split exact clusters: where none is left, none comes back.
+        let is_settled = found.last().is_some_and(|above| above.n_clusters() == n_nodes)
+            && are_among(&stretches[number - 1].unstable_modes, &stretch.unstable_modes);
+        found.push(if is_settled {
+            Partition::singletons(n_nodes)
+        } else {
+            EigenvectorDistance::new(spectrum, &stretch.unstable_modes)?.exact_clusters()?
+        });
     }
-    let distance = EigenvectorDistance::new(spectrum, unstable_modes)?;
-    match rule {
-        ClusterRule::Exact => distance.exact_clusters(),
-        ClusterRule::Threshold(threshold) => distance.clusters_within(threshold),
-    }
+    Ok(found)
+}
+
+/// Whether all modes of the first set are in the second; both ascend.
+fn are_among(some: &[usize], all: &[usize]) -> bool {
+    some.iter().all(|mode| all.binary_search(mode).is_ok())
 }

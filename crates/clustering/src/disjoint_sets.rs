@@ -1,5 +1,5 @@
 //! Disjoint sets under union, by size and with path halving (Tarjan & van Leeuwen, J. ACM 31, 245
-//! (1984)).
+//! (1984)), and many such families side by side over the same elements.
 
 pub(crate) struct DisjointSets {
     parent: Vec<usize>,
@@ -36,5 +36,65 @@ impl DisjointSets {
     /// The representative of every element.
     pub(crate) fn roots(mut self) -> Vec<usize> {
         (0..self.parent.len()).map(|i| self.root(i)).collect()
+    }
+}
+
+/// Several families of disjoint sets of the same elements, numbered from 0.
+///
+/// Element by element in memory: whoever asks about one pair in all families reads two runs. The
+/// lower root stays a root, which needs no sizes and is O(log n) a call with path halving.
+pub(crate) struct DisjointSetFamilies {
+    n_families: usize,
+    /// Shape (n, families), row by row.
+    parent: Vec<u32>,
+    /// How many sets each family still has.
+    n_sets: Vec<usize>,
+}
+
+impl DisjointSetFamilies {
+    /// # Panics
+    /// If there are 2³² elements or more.
+    pub(crate) fn new(n: usize, n_families: usize) -> Self {
+        let last = u32::try_from(n).expect("fewer than 2^32 elements");
+        let parent = (0..last).flat_map(|i| std::iter::repeat_n(i, n_families)).collect();
+        Self { n_families, parent, n_sets: vec![n; n_families] }
+    }
+
+    /// Whether the family has become a single set.
+    pub(crate) fn is_one_set(&self, family: usize) -> bool {
+        self.n_sets[family] <= 1
+    }
+
+    pub(crate) fn are_joined(&mut self, family: usize, i: usize, j: usize) -> bool {
+        self.root(family, i) == self.root(family, j)
+    }
+
+    pub(crate) fn join(&mut self, family: usize, i: usize, j: usize) {
+        let (i, j) = (self.root(family, i), self.root(family, j));
+        if i != j {
+            let (low, high) = if i < j { (i, j) } else { (j, i) };
+            self.parent[high as usize * self.n_families + family] = low;
+            self.n_sets[family] -= 1;
+        }
+    }
+
+    /// The representative of every element in one family.
+    pub(crate) fn roots(&mut self, family: usize) -> Vec<usize> {
+        let n = self.parent.len() / self.n_families;
+        (0..n).map(|i| self.root(family, i) as usize).collect()
+    }
+
+    fn root(&mut self, family: usize, i: usize) -> u32 {
+        let place = |i: u32| i as usize * self.n_families + family;
+        let mut i = i as u32;
+        loop {
+            let parent = self.parent[place(i)];
+            if parent == i {
+                return i;
+            }
+            let grandparent = self.parent[place(parent)];
+            self.parent[place(i)] = grandparent;
+            i = grandparent;
+        }
     }
 }

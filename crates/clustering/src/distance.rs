@@ -107,10 +107,18 @@ impl EigenvectorDistance {
         self.between_up_to(i, j, f64::INFINITY)
     }
 
-    /// δe_ij of all pairs, shape (N, N), row by row.
+    /// δe_ij of all pairs, shape (N, N), row by row. O(N² m / 2).
     pub fn matrix(&self) -> Vec<f64> {
-        let row = |i| (0..self.n_nodes).map(move |j| self.between(i, j));
-        (0..self.n_nodes).flat_map(row).collect()
+        let n = self.n_nodes;
+        let mut matrix = vec![0.0; n * n];
+        for i in 0..n {
+            for j in i + 1..n {
+                let distance = self.between(i, j);
+                matrix[i * n + j] = distance;
+                matrix[j * n + i] = distance;
+            }
+        }
+        matrix
     }
 
     /// How far apart two nodes of an exact cluster may be in the unstable subspace: a bound on what
@@ -155,21 +163,28 @@ impl EigenvectorDistance {
     /// # Errors
     /// [`ClusteringError::BadThreshold`] when it is negative or not finite.
     pub fn clusters_within(&self, threshold: f64) -> Result<Partition, ClusteringError> {
-        if !(threshold.is_finite() && threshold >= 0.0) {
-            return Err(ClusteringError::BadThreshold { threshold });
-        }
+        check_threshold(threshold)?;
         if self.n_modes == 0 {
             return Ok(Partition::one_cluster(self.n_nodes));
         }
-        // One component of each eigenspace's difference never exceeds its norm, so that the
-        // coordinates of two nodes differ by no more than their distance.
+        let is_linked = |i, j| self.between_up_to(i, j, threshold) <= threshold;
+        Ok(Partition::single_linkage_along(&self.coordinate(), widened(threshold), is_linked))
+    }
+
+    /// How many differences of components [`Self::clusters_within`] may take.
+    pub(crate) fn work_within(&self, threshold: f64) -> usize {
+        Partition::pairs_along(&self.coordinate(), widened(threshold)) * self.width
+    }
+
+    /// A coordinate of every node such that those of two nodes differ by no more than δe_ij.
+    ///
+    /// One component of each eigenspace's difference never exceeds its norm.
+    fn coordinate(&self) -> Vec<f64> {
         let along = |i: usize| {
             let row = self.row(i);
             self.blocks.iter().map(|b| b.factor * row[b.columns.start]).sum()
         };
-        let coordinate: Vec<f64> = (0..self.n_nodes).map(along).collect();
-        let is_linked = |i, j| self.between_up_to(i, j, threshold) <= threshold;
-        Ok(Partition::single_linkage_along(&coordinate, widened(threshold), is_linked))
+        (0..self.n_nodes).map(along).collect()
     }
 
     /// δe_ij if it is at most `limit`, otherwise some value between `limit` and δe_ij.
@@ -210,7 +225,16 @@ pub(crate) fn transverse(eigenspace: &Range<usize>) -> Range<usize> {
     eigenspace.start.max(1)..eigenspace.end
 }
 
-fn check_shapes(spectrum: &Spectrum) {
+/// A threshold is finite and not negative.
+pub(crate) fn check_threshold(threshold: f64) -> Result<(), ClusteringError> {
+    if threshold.is_finite() && threshold >= 0.0 {
+        Ok(())
+    } else {
+        Err(ClusteringError::BadThreshold { threshold })
+    }
+}
+
+pub(crate) fn check_shapes(spectrum: &Spectrum) {
     let n_modes = spectrum.eigenvalues.len();
     let (n_vectors, n_residuals) = (spectrum.eigenvectors.len(), spectrum.residuals.len());
     assert!(
@@ -242,7 +266,10 @@ pub(crate) fn check_synchronous_mode(spectrum: &Spectrum) -> Result<(), Clusteri
 }
 
 /// The eigenspaces, by number, whose transverse modes are those given.
-fn chosen_eigenspaces(spectrum: &Spectrum, modes: &[usize]) -> Result<Vec<usize>, ClusteringError> {
+pub(crate) fn chosen_eigenspaces(
+    spectrum: &Spectrum,
+    modes: &[usize],
+) -> Result<Vec<usize>, ClusteringError> {
     let n_modes = spectrum.eigenvalues.len();
     let mut is_given = vec![false; n_modes];
     for &mode in modes {
@@ -320,7 +347,7 @@ fn gap(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
     gap
 }
 
-fn norm_of_difference(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn norm_of_difference(a: &[f64], b: &[f64]) -> f64 {
     match (a, b) {
         ([a], [b]) => (a - b).abs(),
         _ => a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt(),

@@ -77,8 +77,8 @@ pub enum ClusteringError {
         /// The threshold.
         threshold: f64,
     },
-    /// A cluster names a node that does not exist.
-    #[error("a cluster names node {}, but there are only {n_nodes} nodes", node + 1)]
+    /// A cluster or region names a node that does not exist.
+    #[error("a cluster or region names node {}, but there are only {n_nodes} nodes", node + 1)]
     NodeOutOfRange {
         /// The node.
         node: usize,
@@ -86,9 +86,28 @@ pub enum ClusteringError {
         n_nodes: usize,
     },
     /// A node listed twice.
-    #[error("node {} is listed twice among the clusters", node + 1)]
+    #[error("node {} is listed twice among the clusters or regions", node + 1)]
     NodeListedTwice {
         /// The node.
         node: usize,
+    },
+    /// A region without nodes.
+    #[error("region {} has no nodes", region + 1)]
+    EmptyRegion {
+        /// The region.
+        region: usize,
+    },
+    /// A distance that is negative or not finite.
+    #[error(
+        "the distance of nodes {} and {} is {distance}, expected a finite number that is not \
+         negative", i + 1, j + 1
+    )]
+    BadDistance {
+        /// One node.
+        i: usize,
+        /// The other node.
+        j: usize,
+        /// Their distance.
+        distance: f64,
     },
 }

@@ -1,5 +1,6 @@
 //! Which nodes synchronise, and when: the eigenvector distance δe_ij, the clusters it predicts, the
-//! cascade of predicted states over the coupling strength ε, and the agreement of two partitions.
+//! cascade of predicted states over the coupling strength ε, regions under two thresholds, and how
+//! far two partitions or two distances agree.
 //!
 //! Integrates nothing and reads no files: it takes a [`spectra::Spectrum`] and a
 //! [`msf::StableRegion`]. Modes and nodes count from 0 here; mode 0, of eigenvalue λ_1 = 0, is the
@@ -8,13 +9,18 @@
 mod agreement;
 mod assignment;
 mod cascade;
+mod correlation;
 mod disjoint_sets;
 mod distance;
 mod error;
+mod linkage;
 mod partition;
+mod regions;
 
 pub use agreement::{MaximumOverlap, adjusted_rand_index, maximum_overlap};
 pub use cascade::{ClusterRule, State, cascade, merge_equal_clusters};
+pub use correlation::{Correlation, correlation_of_pairs, pearson, spearman};
 pub use distance::{EigenvectorDistance, mean_over_bases};
 pub use error::ClusteringError;
 pub use partition::Partition;
+pub use regions::{RegionAgreement, RegionClusters, RegionDistances, RegionThresholds};

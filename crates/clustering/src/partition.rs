@@ -91,8 +91,7 @@ impl Partition {
         window: f64,
         is_linked: impl Fn(usize, usize) -> bool,
     ) -> Self {
-        let mut order: Vec<usize> = (0..coordinate.len()).collect();
-        order.sort_unstable_by(|&i, &j| coordinate[i].total_cmp(&coordinate[j]));
+        let order = ascending(coordinate);
         let mut sets = DisjointSets::new(coordinate.len());
         for (place, &i) in order.iter().enumerate() {
             let in_window = |&&j: &&usize| coordinate[j] - coordinate[i] <= window;
@@ -103,6 +102,21 @@ impl Partition {
             }
         }
         Self::from_marks(&sets.roots())
+    }
+
+    /// How many pairs [`Self::single_linkage_along`] looks at, O(N log N).
+    pub(crate) fn pairs_along(coordinate: &[f64], window: f64) -> usize {
+        let order = ascending(coordinate);
+        let mut end = 0;
+        let mut pairs = 0;
+        for (place, &i) in order.iter().enumerate() {
+            end = end.max(place + 1);
+            while end < order.len() && coordinate[order[end]] - coordinate[i] <= window {
+                end += 1;
+            }
+            pairs += end - place - 1;
+        }
+        pairs
     }
 
     /// Number of nodes N.
@@ -147,4 +161,11 @@ impl Partition {
             .zip(&coarse.cluster_of)
             .all(|(&fine, &coarse)| *whole[fine].get_or_insert(coarse) == coarse)
     }
+}
+
+/// The nodes in the order of their coordinates.
+fn ascending(coordinate: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..coordinate.len()).collect();
+    order.sort_unstable_by(|&i, &j| coordinate[i].total_cmp(&coordinate[j]));
+    order
 }

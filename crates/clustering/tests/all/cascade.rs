@@ -280,6 +280,22 @@ proptest! {
     }
 
     #[test]
+    fn a_threshold_cascade_has_the_clusters_of_each_of_its_states(
+        seed in any::<u64>(), n in 1usize..40, stable in any_region(), threshold in 0.0..0.3,
+    ) {
+        let spectrum = random_spectrum(n, n, seed);
+        let states = cascade(&spectrum, &stable, ClusterRule::Threshold(threshold)).unwrap();
+        let exact_states = exact(&spectrum, &stable);
+        prop_assert_eq!(states.len(), exact_states.len());
+        for (state, exact_state) in states.iter().zip(exact_states) {
+            prop_assert_eq!(state.epsilon, exact_state.epsilon);
+            prop_assert_eq!(&state.unstable_modes, &exact_state.unstable_modes);
+            let distance = EigenvectorDistance::new(&spectrum, &state.unstable_modes).unwrap();
+            prop_assert_eq!(&state.clusters, &distance.clusters_within(threshold).unwrap());
+        }
+    }
+
+    #[test]
     fn states_follow_one_another_without_gaps(
         seed in any::<u64>(), n in 1usize..9, stable in any_region(),
     ) {
@@ -313,18 +329,37 @@ proptest! {
 #[test]
 #[ignore = "a measurement"]
 fn cascades_of_large_networks() {
-    let time = |name: &str, spectrum: &Spectrum, rule| {
+    let time = |name: &str, spectrum: &Spectrum, stable: &StableRegion, rule| {
         let start = std::time::Instant::now();
-        let states = cascade(spectrum, &above(SIGMA_C), rule).unwrap();
+        let states = cascade(spectrum, stable, rule).unwrap();
         println!("{name} {rule:?}: {} states in {:?}", states.len(), start.elapsed());
     };
+    let (open, window) = (above(SIGMA_C), region(&[(0.2, Some(5.0))]));
     let all = random_spectrum(1000, 1000, 1);
-    time("1000 nodes, all modes", &all, ClusterRule::Exact);
-    time("1000 nodes, all modes", &all, ClusterRule::Threshold(0.01));
+    time("1000 nodes, all modes", &all, &open, ClusterRule::Exact);
+    for threshold in [0.01, 0.03, 0.035, 0.04] {
+        time("1000 nodes, all modes", &all, &open, ClusterRule::Threshold(threshold));
+        time("1000 nodes, all modes, window", &all, &window, ClusterRule::Threshold(threshold));
+    }
+    time("1000 nodes with twins", &with_twins(&all), &open, ClusterRule::Exact);
     let few = random_spectrum(20_000, 20, 1);
-    time("20000 nodes, 20 modes", &few, ClusterRule::Exact);
-    time("20000 nodes, 20 modes", &few, ClusterRule::Threshold(1e-4));
-    time("20000 nodes, 20 modes", &few, ClusterRule::Threshold(1e-3));
+    time("20000 nodes, 20 modes", &few, &open, ClusterRule::Exact);
+    for threshold in [1e-4, 1e-3, 5e-3] {
+        time("20000 nodes, 20 modes", &few, &open, ClusterRule::Threshold(threshold));
+    }
     let blocks = block_spectrum(20_000, 8);
-    time("20000 nodes in 8 equal blocks", &blocks, ClusterRule::Exact);
+    time("20000 nodes in 8 equal blocks", &blocks, &open, ClusterRule::Exact);
+    time("20000 nodes in 8 equal blocks", &blocks, &open, ClusterRule::Threshold(1e-4));
+}
+
+/// The spectrum with nodes 0 and 1 alike in all but the last mode, which is (1, −1, 0, …)/√2.
+fn with_twins(spectrum: &Spectrum) -> Spectrum {
+    let mut twins = spectrum.clone();
+    for v in &mut twins.eigenvectors {
+        (v[0], v[1]) = (0.5 * (v[0] + v[1]), 0.5 * (v[0] + v[1]));
+    }
+    let last = twins.eigenvectors.last_mut().unwrap();
+    last.fill(0.0);
+    (last[0], last[1]) = (0.5f64.sqrt(), -0.5f64.sqrt());
+    twins
 }

@@ -243,3 +243,16 @@ proptest! {
         }
     }
 }
+
+/// What a matrix of distances costs; run with `--ignored --nocapture` to see it.
+#[test]
+#[ignore = "a measurement"]
+fn matrices_of_a_thousand_nodes() {
+    let spectrum = random_spectrum(1000, 1000, 1);
+    for n_modes in [1, 5, 20, 999] {
+        let distance = distance(&spectrum, 1..=n_modes);
+        let start = std::time::Instant::now();
+        let largest = distance.matrix().into_iter().fold(0.0, f64::max);
+        println!("{n_modes} modes, largest distance {largest}: {:?}", start.elapsed());
+    }
+}

@@ -2,6 +2,8 @@
 
 mod agreement;
 mod cascade;
+mod correlation;
 mod distance;
 mod fixtures;
 mod partition;
+mod regions;
