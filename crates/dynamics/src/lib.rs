@@ -25,7 +25,7 @@ pub use coupling::Coupling;
 pub use error::DynamicsError;
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
 pub use network::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
-pub use observables::{Errors, Observables};
+pub use observables::{Errors, Observables, pair_index};
 pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
 pub use scalar::{Dual, Lanes, Scalar};

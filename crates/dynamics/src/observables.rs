@@ -40,9 +40,14 @@ impl Errors {
     /// # Panics
     /// When pairs were not observed.
     pub fn pair(&self, i: usize, j: usize, n_nodes: usize) -> f64 {
-        let (i, j) = (i.min(j), i.max(j));
-        if i == j { 0.0 } else { self.pairs[i * n_nodes - i * (i + 1) / 2 + j - i - 1].mean }
+        if i == j { 0.0 } else { self.pairs[pair_index(i, j, n_nodes)].mean }
     }
+}
+
+/// Place of the pair {i, j}, i ≠ j, in the order (0,1), (0,2), …, (1,2), … of [`Errors::pairs`].
+pub fn pair_index(i: usize, j: usize, n_nodes: usize) -> usize {
+    let (i, j) = (i.min(j), i.max(j));
+    i * n_nodes - i * (i + 1) / 2 + j - i - 1
 }
 
 /// Channels, each the mean of |x_i − x_j| over its own list of pairs, and their running sums.

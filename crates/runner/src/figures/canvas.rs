@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use base64::Engine;
 use xmlwriter::{Indent, Options, XmlWriter};
 
 use super::font::{FAMILY, Face};
@@ -150,6 +151,67 @@ impl Canvas {
         self.points(&shape.corners(at, radius));
         self.attribute("fill", fill);
         self.stroke(ink);
+        self.xml.end_element();
+    }
+
+    /// Many marks of one kind, as one element.
+    pub(super) fn marks(&mut self, shape: Shape, at: &[Point], radius: f64, fill: &str) {
+        if shape == Shape::Circle {
+            return self.dots(at, radius, fill);
+        }
+        let mut path = String::new();
+        for &at in at {
+            for (k, [x, y]) in shape.corners(at, radius).into_iter().enumerate() {
+                path += &format!("{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' });
+            }
+            path.push('Z');
+        }
+        self.xml.start_element("path");
+        self.attribute("d", path);
+        self.attribute("fill", fill);
+        self.xml.end_element();
+    }
+
+    /// Many discs of one colour as one element: the round ends of lines too short to see.
+    pub(super) fn dots(&mut self, at: &[Point], radius: f64, fill: &str) {
+        let path: String = at.iter().map(|[x, y]| format!("M{x:.2} {y:.2}h.01")).collect();
+        self.xml.start_element("path");
+        self.attribute("d", path);
+        self.attribute("stroke", fill);
+        self.number("stroke-width", 2.0 * radius);
+        self.attribute("stroke-linecap", "round");
+        self.xml.end_element();
+    }
+
+    /// Many lines as one element, to 1/10 point since there are many. Where they cross they
+    /// darken no further.
+    pub(super) fn segments(&mut self, ends: &[[Point; 2]], stroke: Stroke, opacity: f64) {
+        let segment =
+            |[[x, y], [to_x, to_y]]: &[Point; 2]| format!("M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}");
+        self.xml.start_element("path");
+        self.attribute("d", ends.iter().map(segment).collect::<String>());
+        self.stroke(stroke);
+        if opacity < 1.0 {
+            self.number("stroke-opacity", opacity);
+        }
+        self.xml.end_element();
+    }
+
+    /// A picture, the bytes of a PNG, over a rectangle: its pixels with sharp edges, or blended
+    /// where they are finer than those of the reader.
+    pub(super) fn picture(&mut self, png: &[u8], rect: Rect, is_sharp: bool) {
+        let data = base64::engine::general_purpose::STANDARD.encode(png);
+        self.xml.start_element("image");
+        // The older name of the attribute is the one that every reader of SVG knows.
+        self.attribute("xmlns:xlink", "http://www.w3.org/1999/xlink");
+        self.sides(rect);
+        self.attribute("preserveAspectRatio", "none");
+        if is_sharp {
+            // The name in SVG 1.1, and the one in CSS that browsers follow.
+            self.attribute("image-rendering", "optimizeSpeed");
+            self.attribute("style", "image-rendering:pixelated");
+        }
+        self.attribute("xlink:href", format_args!("data:image/png;base64,{data}"));
         self.xml.end_element();
     }
 

@@ -121,16 +121,54 @@ pub enum FigureError {
         n_nodes: usize,
     },
     /// A position that is not finite.
-    #[error("panel {panel}: node {node} is at ({x}, {y})")]
+    #[error("panel {panel}: node {node} is at {position:?}")]
     BadPosition {
         /// Letter of the panel.
         panel: String,
         /// Node number from 0.
         node: usize,
-        /// Horizontal position.
-        x: f64,
-        /// Vertical position.
-        y: f64,
+        /// Its coordinates.
+        position: Vec<f64>,
+    },
+    /// A matrix that is not square.
+    #[error("panel {panel}: {n_values} values make no matrix of {n_nodes} × {n_nodes}")]
+    NotSquare {
+        /// Letter of the panel.
+        panel: String,
+        /// Number of rows asked for.
+        n_nodes: usize,
+        /// Values given.
+        n_values: usize,
+    },
+    /// A matrix without a single finite value.
+    #[error("panel {panel}: none of the {n_values} values of the matrix is finite")]
+    NoFiniteValue {
+        /// Letter of the panel.
+        panel: String,
+        /// Values given.
+        n_values: usize,
+    },
+    /// A group that is empty or reaches beyond the nodes.
+    #[error("panel {panel}: a group covers nodes {from} to {to} (past the end) of {n_nodes}")]
+    BadGroup {
+        /// Letter of the panel.
+        panel: String,
+        /// First node, from 0.
+        from: usize,
+        /// One past the last node.
+        to: usize,
+        /// Number of nodes.
+        n_nodes: usize,
+    },
+    /// Not one cluster, or none, a node.
+    #[error("panel {panel}: clusters of {n_clusters} nodes for {n_nodes} nodes")]
+    ClusterCount {
+        /// Letter of the panel.
+        panel: String,
+        /// Nodes whose cluster, or lack of one, is given.
+        n_clusters: usize,
+        /// Number of nodes.
+        n_nodes: usize,
     },
     /// The SVG text cannot be read back.
     #[error("the SVG cannot be read")]

@@ -7,6 +7,8 @@ use super::style::{NOTE_SIZE, Shape, Stroke};
 
 /// Width of the sample of a line.
 const SAMPLE: f64 = 20.0;
+/// Width of a mark alone.
+const MARK_SAMPLE: f64 = 6.0;
 const SAMPLE_GAP: f64 = 4.0;
 /// Distance between the entries of one row.
 const STRIP_GAP: f64 = 9.0;
@@ -16,14 +18,20 @@ const CLEARANCE: f64 = 4.0;
 
 /// One row: a sample of a line, its mark, and what it stands for.
 pub(super) struct Entry<'a> {
+    /// Whether there is a line, or the mark alone.
+    pub(super) has_line: bool,
     pub(super) stroke: Stroke,
     pub(super) shape: Option<Shape>,
     pub(super) label: &'a Label,
 }
 
 impl Entry<'_> {
+    fn sample(&self) -> f64 {
+        if self.has_line { SAMPLE } else { MARK_SAMPLE }
+    }
+
     fn width(&self) -> f64 {
-        SAMPLE + SAMPLE_GAP + self.label.width(NOTE_SIZE)
+        self.sample() + SAMPLE_GAP + self.label.width(NOTE_SIZE)
     }
 }
 
@@ -101,12 +109,16 @@ pub(super) fn draw_inside(canvas: &mut Canvas, entries: &[Entry], corner: Point,
 
 /// Draws an entry from its left end, at the middle of its row.
 pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, [left, middle]: Point) {
-    canvas.line([left, middle], [left + SAMPLE, middle], entry.stroke);
+    let sample = entry.sample();
+    if entry.has_line {
+        canvas.line([left, middle], [left + sample, middle], entry.stroke);
+    }
     if let Some(shape) = entry.shape {
         let ink = Stroke::solid(entry.stroke.colour, 0.8);
-        canvas.mark(shape, [left + SAMPLE / 2.0, middle], 2.0, "#ffffff", ink);
+        let fill = if entry.has_line { "#ffffff" } else { entry.stroke.colour };
+        canvas.mark(shape, [left + sample / 2.0, middle], 2.0, fill, ink);
     }
-    let at = [left + SAMPLE + SAMPLE_GAP, middle + CAP_HEIGHT * NOTE_SIZE / 2.0];
+    let at = [left + sample + SAMPLE_GAP, middle + CAP_HEIGHT * NOTE_SIZE / 2.0];
     canvas.label(entry.label, at, NOTE_SIZE, Anchor::Start);
 }
 
@@ -168,7 +180,8 @@ mod tests {
     #[test]
     fn a_strip_breaks_into_rows_that_fit() {
         let label = Label::text("abc");
-        let entry = || Entry { stroke: Stroke::solid("#000000", 1.0), shape: None, label: &label };
+        let stroke = Stroke::solid("#000000", 1.0);
+        let entry = || Entry { has_line: true, stroke, shape: None, label: &label };
         let entries = [entry(), entry(), entry()];
         let two = 2.0 * entry().width() + STRIP_GAP;
         let (places, height) = strip(&entries, two);

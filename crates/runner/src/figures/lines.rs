@@ -22,6 +22,8 @@ const BELOW: f64 = 28.5;
 const RIGHT: f64 = 8.0;
 /// Room above the frame where there are no labels of markers.
 const ABOVE: f64 = 8.0;
+/// Room above the frame for the names of spans.
+const SPAN_ROW: f64 = 13.0;
 /// Least distance between numbers along x and along y.
 const X_SPACING: f64 = 28.0;
 const Y_SPACING: f64 = 16.0;
@@ -49,6 +51,23 @@ pub struct LinePanel {
     pub notes: Vec<Note>,
     /// Spans of x with a grey background, [from, to].
     pub shaded: Vec<[f64; 2]>,
+    /// Whether every point stands alone as a mark, rather than joined to the next by a line; the
+    /// spread is not drawn then.
+    pub marks_only: bool,
+    /// Named spans of x, with thin lines at their ends. Names stand above the frame where there
+    /// is room, and nowhere where vertical markers have labels there.
+    pub spans: Vec<Span>,
+}
+
+/// A named span of x, such as the nodes of one community.
+#[derive(Clone, Debug)]
+pub struct Span {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// Its name; an empty label for none.
+    pub label: Label,
 }
 
 /// A dot with a label beside it.
@@ -115,6 +134,7 @@ impl LinePanel {
         }
         let axes = self.axes(ranges, frame);
         self.draw_data(canvas, frame, axes);
+        self.draw_span_names(canvas, frame, axes);
         markers::draw_labels(canvas, &self.markers, &axes.x, frame);
         if let (Some(place), false) = (place, entries.is_empty()) {
             legend::draw_inside(canvas, &entries, place, frame);
@@ -125,8 +145,17 @@ impl LinePanel {
     }
 
     fn above(&self) -> f64 {
-        let has_labels = self.markers.iter().flat_map(|g| &g.markers).any(|m| m.label.is_some());
-        if has_labels { markers::ROW_HEIGHT } else { ABOVE }
+        if self.has_marker_labels() {
+            markers::ROW_HEIGHT
+        } else if self.spans.iter().any(|s| !s.label.is_empty()) {
+            SPAN_ROW
+        } else {
+            ABOVE
+        }
+    }
+
+    fn has_marker_labels(&self) -> bool {
+        self.markers.iter().flat_map(|g| &g.markers).any(|m| m.label.is_some())
     }
 
     /// Ranges of x and y in transformed values.
@@ -152,11 +181,12 @@ impl LinePanel {
     fn entries(&self) -> Vec<Entry<'_>> {
         let curves = self.series.iter().filter(|s| !s.label.is_empty()).map(|s| {
             let (stroke, shape) = series_style(s.style);
-            Entry { stroke, shape: Some(shape), label: &s.label }
+            Entry { has_line: !self.marks_only, stroke, shape: Some(shape), label: &s.label }
         });
         let lines = self.markers.iter().filter_map(|g| {
             let label = g.legend.as_ref()?;
-            Some(Entry { stroke: markers::stroke(g.style), shape: None, label })
+            let stroke = markers::stroke(g.style);
+            Some(Entry { has_line: true, stroke, shape: None, label })
         });
         curves.chain(lines).collect()
     }
@@ -170,9 +200,10 @@ impl LinePanel {
         legend::free_place(legend::size(entries), frame, &taken, &lines)
     }
 
-    /// Points along every curve and the edges of its spread, a few points of length apart.
+    /// Points along everything drawn, a few points of length apart.
     fn drawn_points(&self, axes: Axes) -> Vec<Point> {
-        self.series.iter().flat_map(|s| series::points_along(s, axes)).collect()
+        let along = if self.marks_only { series::points } else { series::points_along };
+        self.series.iter().flat_map(|s| along(s, axes)).collect()
     }
 
     fn draw_data(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
@@ -187,8 +218,42 @@ impl LinePanel {
                 canvas.line([frame.left, y], [frame.right, y], thin);
             }
             markers::draw_lines(canvas, &self.markers, &axes.x, frame);
-            series::draw(canvas, &self.series, axes);
+            self.draw_span_ends(canvas, frame, axes);
+            if !self.marks_only {
+                series::draw(canvas, &self.series, axes);
+            }
         });
+        // A mark alone is drawn whole, even on the frame.
+        if self.marks_only {
+            series::draw_marks_only(canvas, &self.series, axes, frame);
+        }
+    }
+
+    /// Lines between spans, and between them and other points; none at the ends of all points.
+    fn draw_span_ends(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
+        let mut ends: Vec<f64> = self.spans.iter().flat_map(|s| [s.from, s.to]).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let has =
+            |side: &dyn Fn(f64) -> bool| self.series.iter().flat_map(|s| &s.x).any(|&x| side(x));
+        ends.retain(|&end| has(&|x| x < end) && has(&|x| x > end));
+        for x in ends.into_iter().filter_map(|end| axes.x.at(end)) {
+            canvas.line([x, frame.top], [x, frame.bottom], Stroke::solid(LINK_INK, AXIS_WIDTH));
+        }
+    }
+
+    fn draw_span_names(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
+        if self.has_marker_labels() {
+            return;
+        }
+        for Span { from, to, label } in &self.spans {
+            let Some((left, right)) = axes.x.at(*from).zip(axes.x.at(*to)) else { continue };
+            let [left, right] = [left, right].map(|x| x.clamp(frame.left, frame.right));
+            if label.width(TICK_SIZE) <= right - left {
+                let at = [(left + right) / 2.0, frame.top - 3.5];
+                canvas.label(label, at, TICK_SIZE, Anchor::Middle);
+            }
+        }
     }
 
     fn draw_frame(&self, canvas: &mut Canvas, cell: Rect, frame: Rect, axes: Axes) {

@@ -1,34 +1,49 @@
 //! Figures: panels with letters in a grid, as SVG text and PNG bytes, from plain data.
 //!
 //! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
-//! (with `series`, `axis`, `markers` and `legend`), `network` (with `placement` and `stress`), `msf`; a new kind
-//! is one more file and one more [`Content`]. They draw through `canvas`, which writes SVG in
-//! points, with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG.
+//! (with `series`, `axis`, `markers` and `legend`; `msf` and `components` fill it), `network` (with
+//! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`; a new kind is
+//! one more file and one more [`Content`]. They draw through `canvas`, which writes SVG in points,
+//! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG.
+//! `layouts` sets panels side by side as the paper's figures do.
 
 mod axis;
 mod canvas;
+mod colour_map;
+mod components;
 mod error;
 mod font;
+mod groups;
+mod heat_map;
 mod label;
+mod layouts;
 mod legend;
 mod lines;
+mod links;
 mod markers;
 mod msf;
 mod network;
 mod placement;
+mod positions;
 mod raster;
 mod series;
 mod stress;
 mod style;
 
 pub use axis::Scale;
+pub use components::{Mode, components_panel};
 pub use error::FigureError;
+pub use groups::Group;
+pub use heat_map::HeatMapPanel;
 pub use label::Label;
+pub use layouts::{Comparison, pairs_figure};
 pub use lines::LinePanel;
+pub use links::Link;
 pub use markers::{Marker, MarkerGroup, MarkerStyle};
 pub use msf::{MsfCurve, msf_panel};
-pub use network::{Link, NetworkPanel, Node};
+pub use network::{NetworkPanel, Node};
 pub use placement::Placement;
+pub use positions::PositionsPanel;
 pub use raster::png;
 pub use series::{Series, Spread, SpreadStyle};
 
@@ -83,6 +98,10 @@ pub enum Content {
     Lines(LinePanel),
     /// Nodes and links.
     Network(NetworkPanel),
+    /// A square matrix in colours.
+    HeatMap(HeatMapPanel),
+    /// Nodes in space, from three sides.
+    Positions(PositionsPanel),
 }
 
 impl Figure {
@@ -104,6 +123,8 @@ impl Figure {
             match &panel.content {
                 Content::Lines(lines) => lines.draw(&mut canvas, cell, margin, letter)?,
                 Content::Network(network) => network.draw(&mut canvas, cell, letter)?,
+                Content::HeatMap(matrix) => matrix.draw(&mut canvas, cell, letter)?,
+                Content::Positions(nodes) => nodes.draw(&mut canvas, cell, letter)?,
             }
             let at = [cell.left, cell.top + CAP_HEIGHT * LETTER_SIZE + 1.0];
             canvas.label(&Label::text(letter.as_str()), at, LETTER_SIZE, Anchor::Start);

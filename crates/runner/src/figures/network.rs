@@ -1,27 +1,31 @@
 //! Network panel: nodes coloured by cluster, links as wide as their weights, one scale along
 //! both axes.
 
+use std::ops::Range;
+
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
+use super::links::{self, Link};
 use super::placement::{Placement, circle, grouped};
 use super::stress::{hop_distances, least_stress};
-use super::style::{INK, LINK_INK, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
+use super::style::{INK, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
 
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
 const MIN_RADIUS: f64 = 1.2;
-/// Radius over the distance of the two closest nodes.
+/// Radius over the distance of close nodes.
 const CLOSENESS: f64 = 0.36;
 /// Largest size of a label inside a node, and the smallest that is still drawn.
 const MAX_LABEL: f64 = 8.5;
-const MIN_LABEL: f64 = 4.0;
-/// Width of a link of median weight in a sparse network, and the narrowest and widest drawn.
-const LINK_WIDTH: f64 = 1.1;
-const LINK_WIDTHS: [f64; 2] = [0.15, 4.0];
-/// Links up to which they are drawn at full width; more of them share the same ink.
-const MANY_LINKS: f64 = 30.0;
+const MIN_LABEL: f64 = 7.0;
+
+/// Radius of the dots in the legend, room up to their names, and between entries and rows.
+const DOT: f64 = 3.2;
+const DOT_LEAD: f64 = 2.0 * DOT + 3.0;
+const ENTRY_GAP: f64 = 10.0;
+const LEGEND_ROW: f64 = 1.4 * NOTE_SIZE;
 
 /// Nodes and links.
 #[derive(Clone, Debug, Default)]
@@ -40,21 +44,10 @@ pub struct NetworkPanel {
 #[derive(Clone, Debug)]
 pub struct Node {
     /// Stands inside the node. Where the longest label of the network would have to be smaller
-    /// than 4 pt to fit, no node is labelled.
+    /// than 7 pt to fit, no node is labelled.
     pub label: String,
     /// Number of its cluster, which has the colour of series of this style; none is grey.
     pub cluster: Option<usize>,
-}
-
-/// A link between two nodes, numbered from 0.
-#[derive(Clone, Copy, Debug)]
-pub struct Link {
-    /// One end.
-    pub from: usize,
-    /// The other end.
-    pub to: usize,
-    /// Finite and above zero; widths are proportional to weights, within limits.
-    pub weight: f64,
 }
 
 impl NetworkPanel {
@@ -66,16 +59,21 @@ impl NetworkPanel {
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
-        let legend_height = if self.cluster_labels.is_empty() { 0.0 } else { 1.7 * NOTE_SIZE };
+        let legend = self.legend_rows(cell.width());
+        let legend_height = match legend.len() {
+            0 => 0.0,
+            n_rows => 1.7 * NOTE_SIZE + (n_rows - 1) as f64 * LEGEND_ROW,
+        };
         let room = Rect { bottom: cell.bottom - legend_height, ..cell }.grown(-MAX_RADIUS - 2.0);
         let (width, height) = (room.width(), room.height());
         if width < 20.0 || height < 20.0 {
             return Err(FigureError::TooSmall { panel: panel.into(), width, height });
         }
         let places = fitted(&self.places(panel)?, room);
-        self.draw_links(canvas, &places);
+        let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
+        links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
-        self.draw_legend(canvas, cell);
+        self.draw_legend(canvas, cell, legend);
         Ok(())
     }
 
@@ -114,23 +112,10 @@ impl NetworkPanel {
             return Err(FigureError::PositionCount { panel, n_positions, n_nodes });
         }
         if let Some(node) = given.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
-            let [x, y] = given[node];
-            return Err(FigureError::BadPosition { panel: panel.into(), node, x, y });
+            let position = given[node].to_vec();
+            return Err(FigureError::BadPosition { panel: panel.into(), node, position });
         }
         Ok(given.iter().map(|&[x, y]| [x, -y]).collect())
-    }
-
-    fn draw_links(&self, canvas: &mut Canvas, places: &[Point]) {
-        let mut weights: Vec<f64> = self.links.iter().map(|l| l.weight).collect();
-        weights.sort_by(f64::total_cmp);
-        let Some(median) = weights.get(weights.len() / 2) else { return };
-        let crowding = (MANY_LINKS / weights.len() as f64).sqrt().min(1.0);
-        let [narrowest, widest] = LINK_WIDTHS;
-        for link in &self.links {
-            let width = LINK_WIDTH * crowding * link.weight / median;
-            let stroke = Stroke::solid(LINK_INK, width.clamp(narrowest, widest));
-            canvas.line(places[link.from], places[link.to], stroke);
-        }
     }
 
     fn draw_nodes(&self, canvas: &mut Canvas, places: &[Point]) {
@@ -139,32 +124,55 @@ impl NetworkPanel {
         let widest = labels.iter().map(|l| l.width(1.0)).fold(0.0, f64::max);
         let size = MAX_LABEL.min(1.65 * radius / widest).min(1.4 * radius);
         for ((node, label), &[x, y]) in self.nodes.iter().zip(&labels).zip(places) {
-            let fill = node.cluster.map_or_else(|| UNCLUSTERED.into(), cluster_fill);
-            canvas.circle([x, y], radius, &fill, Stroke::solid(INK, (0.08 * radius).min(0.6)));
+            let fill = node.cluster.map_or(UNCLUSTERED, cluster_fill);
+            canvas.circle([x, y], radius, fill, Stroke::solid(INK, (0.08 * radius).min(0.6)));
             if size >= MIN_LABEL {
                 let at = [x, y + CAP_HEIGHT * size / 2.0];
-                canvas.label_in(label, at, size, ink_on(&fill));
+                canvas.label_in(label, at, size, ink_on(fill));
             }
         }
     }
 
-    /// Coloured dots with the names of the clusters, in a row at the bottom.
-    fn draw_legend(&self, canvas: &mut Canvas, cell: Rect) {
-        const DOT: f64 = 3.2;
-        const GAP: f64 = 10.0;
-        let lead = 2.0 * DOT + 3.0;
-        let widths: Vec<f64> =
-            self.cluster_labels.iter().map(|l| lead + l.width(NOTE_SIZE)).collect();
-        let total = widths.iter().sum::<f64>() + GAP * (widths.len().saturating_sub(1)) as f64;
-        let mut left = (cell.left + cell.right - total) / 2.0;
-        let middle = cell.bottom - 0.7 * NOTE_SIZE;
-        for (k, (label, width)) in self.cluster_labels.iter().zip(widths).enumerate() {
-            canvas.circle([left + DOT, middle], DOT, &cluster_fill(k), Stroke::solid(INK, 0.4));
-            let at = [left + lead, middle + CAP_HEIGHT * NOTE_SIZE / 2.0];
-            canvas.label(label, at, NOTE_SIZE, Anchor::Start);
-            left += width + GAP;
+    /// Coloured dots with the names of the clusters, in rows at the bottom.
+    fn draw_legend(&self, canvas: &mut Canvas, cell: Rect, rows: Vec<LegendRow>) {
+        let n_rows = rows.len();
+        for (k, LegendRow { clusters, width }) in rows.into_iter().enumerate() {
+            let mut left = (cell.left + cell.right - width) / 2.0;
+            let middle = cell.bottom - 0.7 * NOTE_SIZE - (n_rows - 1 - k) as f64 * LEGEND_ROW;
+            for cluster in clusters {
+                let fill = cluster_fill(cluster);
+                canvas.circle([left + DOT, middle], DOT, fill, Stroke::solid(INK, 0.4));
+                let at = [left + DOT_LEAD, middle + CAP_HEIGHT * NOTE_SIZE / 2.0];
+                let label = &self.cluster_labels[cluster];
+                canvas.label(label, at, NOTE_SIZE, Anchor::Start);
+                left += DOT_LEAD + label.width(NOTE_SIZE) + ENTRY_GAP;
+            }
         }
     }
+
+    /// Names of clusters in as few rows as fit into a width, about equally many in each.
+    fn legend_rows(&self, room: f64) -> Vec<LegendRow> {
+        let n = self.cluster_labels.len();
+        let width = |clusters: &Range<usize>| {
+            let entries = self.cluster_labels[clusters.clone()].iter();
+            let widths: f64 = entries.map(|l| DOT_LEAD + l.width(NOTE_SIZE)).sum();
+            widths + ENTRY_GAP * (clusters.len() - 1) as f64
+        };
+        let rows = |per_row: usize| -> Vec<LegendRow> {
+            let starts = (0..n).step_by(per_row);
+            let clusters = starts.map(|start| start..(start + per_row).min(n));
+            clusters.map(|clusters| LegendRow { width: width(&clusters), clusters }).collect()
+        };
+        let tried = (1..=n).map(|n_rows| rows(n.div_ceil(n_rows)));
+        let mut fitting = tried.skip_while(|r| r.len() < n && r.iter().any(|r| r.width > room));
+        fitting.next().unwrap_or_default()
+    }
+}
+
+/// Consecutive clusters named in one row, and the width of that row.
+struct LegendRow {
+    clusters: Range<usize>,
+    width: f64,
 }
 
 /// Places moved and scaled, by the same factor along both axes, to fill a rectangle.
@@ -184,11 +192,18 @@ fn fitted(places: &[Point], room: Rect) -> Vec<Point> {
     places.iter().map(|&[x, y]| [moved(0, x), moved(1, y)]).collect()
 }
 
-/// Distance of the two closest nodes; infinite for a single one.
+/// Distance of the two closest nodes; in a crowd that of close ones, a twentieth of the nodes
+/// having a neighbour still closer. Infinite for a single node.
 fn closest(places: &[Point]) -> f64 {
-    let pairs =
-        places.iter().enumerate().flat_map(|(k, a)| places[..k].iter().map(move |b| (a, b)));
-    pairs.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(f64::INFINITY, f64::min)
+    let distance = |i: usize, j: usize| {
+        let [a, b] = [places[i], places[j]];
+        if i == j { f64::INFINITY } else { (a[0] - b[0]).hypot(a[1] - b[1]) }
+    };
+    let n_nodes = places.len();
+    let nearest = |i| (0..n_nodes).map(|j| distance(i, j)).fold(f64::INFINITY, f64::min);
+    let mut distances: Vec<f64> = (0..n_nodes).map(nearest).collect();
+    distances.sort_by(f64::total_cmp);
+    distances[n_nodes / 20]
 }
 
 #[cfg(test)]
@@ -221,6 +236,18 @@ mod tests {
     }
 
     #[test]
+    fn one_close_pair_sets_the_distance_of_few_nodes_but_not_of_a_crowd() {
+        let row = |n: i32| {
+            let mut places: Vec<Point> = (0..n).map(|k| [f64::from(k), 0.0]).collect();
+            places[0][0] = 0.9;
+            places
+        };
+        assert!((closest(&row(10)) - 0.1).abs() < 1e-12);
+        assert_eq!(closest(&row(100)), 1.0);
+        assert_eq!(closest(&[[0.0; 2]]), f64::INFINITY);
+    }
+
+    #[test]
     fn nodes_at_one_place_stand_in_the_middle() {
         assert_eq!(fitted(&[[3.0, 4.0]; 2], ROOM), [[60.0, 45.0]; 2]);
     }
@@ -228,9 +255,24 @@ mod tests {
     #[test]
     fn nodes_bear_their_labels_and_the_colours_of_their_clusters() {
         let svg = svg_of(&pair(1.0)).unwrap();
-        for expected in [">left<", ">right<", &cluster_fill(0), UNCLUSTERED] {
+        for expected in [">left<", ">right<", cluster_fill(0), UNCLUSTERED] {
             assert!(svg.contains(expected), "no {expected} in {svg}");
         }
+    }
+
+    #[test]
+    fn a_long_legend_breaks_into_rows_that_fit() {
+        let cluster_labels = (1..=7).map(|m| Label::math("C").subscript(&m.to_string())).collect();
+        let panel = NetworkPanel { cluster_labels, ..pair(1.0) };
+        let lengths = |room| {
+            let rows = panel.legend_rows(room);
+            assert!(room < 50.0 || rows.iter().all(|r| r.width <= room));
+            rows.iter().map(|r| r.clusters.len()).collect::<Vec<_>>()
+        };
+        assert_eq!(lengths(400.0), [7]);
+        assert_eq!(lengths(153.0), [4, 3]);
+        assert_eq!(lengths(10.0), [1; 7]);
+        assert!(pair(1.0).legend_rows(100.0).is_empty());
     }
 
     #[test]

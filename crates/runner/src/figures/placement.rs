@@ -47,12 +47,24 @@ pub(super) fn grouped(clusters: &[Option<usize>], links: &[(usize, usize)]) -> V
         }
     }
     let mut places = vec![[0.0; 2]; clusters.len()];
-    for ((nodes, radius), [x, y]) in groups.iter().zip(radii).zip(least_stress(&distances)) {
+    let centres = set_apart(least_stress(&distances), &radii);
+    for ((nodes, radius), [x, y]) in groups.iter().zip(radii).zip(centres) {
         for (&node, [dx, dy]) in nodes.iter().zip(circle(nodes.len())) {
             places[node] = [x + radius * dx, y + radius * dy];
         }
     }
     places
+}
+
+/// Centres moved apart, all by one factor, until no two circles are closer than unit distance.
+fn set_apart(centres: Vec<[f64; 2]>, radii: &[f64]) -> Vec<[f64; 2]> {
+    let pairs = (0..centres.len()).flat_map(|g| (0..g).map(move |h| (g, h)));
+    let needed = pairs.map(|(g, h)| {
+        let [dx, dy] = [0, 1].map(|c| centres[g][c] - centres[h][c]);
+        (radii[g] + radii[h] + 1.0) / dx.hypot(dy)
+    });
+    let factor = needed.filter(|f| f.is_finite()).fold(1.0, f64::max);
+    centres.into_iter().map(|centre| centre.map(|c| factor * c)).collect()
 }
 
 /// Nodes of each cluster, clusters in ascending order, then each node that is in none.
@@ -97,11 +109,15 @@ mod tests {
 
     #[test]
     fn clusters_do_not_overlap() {
-        let clusters: Vec<_> = (0..24).map(|i| Some(i / 8)).collect();
-        let links: Vec<_> = (0..24).map(|i| (i, (i + 8) % 24)).collect();
-        let places = grouped(&clusters, &links);
-        for (i, j) in (0..24).flat_map(|i| (0..i).map(move |j| (i, j))) {
-            assert!(length(places[i], places[j]) > 0.95, "{i}–{j}");
+        // Each cluster of 8 is linked with the next, and with the one after the next.
+        for n_nodes in [24, 48] {
+            let clusters: Vec<_> = (0..n_nodes).map(|i| Some(i / 8)).collect();
+            let link = |i: usize| [(i, (i + 8) % n_nodes), (i, (i + 16) % n_nodes)];
+            let links: Vec<_> = (0..n_nodes).flat_map(link).collect();
+            let places = grouped(&clusters, &links);
+            for (i, j) in (0..n_nodes).flat_map(|i| (0..i).map(move |j| (i, j))) {
+                assert!(length(places[i], places[j]) > 0.95, "{i}–{j} of {n_nodes}");
+            }
         }
     }
 }

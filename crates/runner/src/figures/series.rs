@@ -1,7 +1,7 @@
 //! One curve of a line panel: points in order, joined by lines, with marks and spread.
 
 use super::axis::Scale;
-use super::canvas::{Canvas, Point};
+use super::canvas::{Canvas, Point, Rect};
 use super::error::FigureError;
 use super::label::Label;
 use super::lines::Axes;
@@ -11,6 +11,8 @@ use super::style::{Stroke, series_style};
 const MARKS: usize = 12;
 /// Radius of a mark.
 const MARK_RADIUS: f64 = 1.9;
+/// Marks of one series that stand alone, beyond which they become smaller.
+const CROWD: f64 = 60.0;
 /// Half the width of the caps of an error bar.
 const CAP: f64 = 1.5;
 
@@ -114,6 +116,22 @@ pub(super) fn draw(canvas: &mut Canvas, series: &[Series], axes: Axes) {
         let phase = (series.len() > 1).then_some(k as f64 / series.len() as f64);
         draw_marks(canvas, s, axes, phase);
     }
+}
+
+/// Draws every point within the frame as a mark, none joined to the next.
+pub(super) fn draw_marks_only(canvas: &mut Canvas, series: &[Series], axes: Axes, frame: Rect) {
+    for s in series {
+        let (stroke, shape) = series_style(s.style);
+        let mut points = points(s, axes);
+        points.retain(|&point| frame.contains(point));
+        let radius = MARK_RADIUS * (CROWD / points.len() as f64).cbrt().clamp(0.4, 1.0);
+        canvas.marks(shape, &points, radius, stroke.colour);
+    }
+}
+
+/// The points themselves, those that can be drawn.
+pub(super) fn points(series: &Series, axes: Axes) -> Vec<Point> {
+    series.x.iter().zip(&series.y).filter_map(|(&x, &y)| axes.at(x, y)).collect()
 }
 
 /// Points along the curve and the edges of its spread, at most 3 points of length apart.

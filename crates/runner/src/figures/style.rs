@@ -1,7 +1,10 @@
 //! Sizes, strokes and colours shared by every panel. Lengths are points of 1/72 inch.
 //!
-//! Colours: M. Okabe and K. Ito, "Color Universal Design" (2008), chosen to be told apart with
-//! every common form of colour vision; lines differ in dashes and marks as well, for grey prints.
+//! The first seven colours: M. Okabe and K. Ito, "Color Universal Design" (2008), chosen to be told
+//! apart with every common form of colour vision; lines differ in dashes and marks as well, for
+//! grey prints. Those that follow, for clusters only, were found as C. Glasbey et al. do (Color
+//! Res. Appl. 32, 304 (2007)): each is the colour farthest from all before it, from white and from
+//! the grey of unclustered nodes, here in B. Ottosson's Oklab space, garish ones left out.
 
 /// Thin lines: frames and ticks.
 pub(super) const AXIS_WIDTH: f64 = 0.6;
@@ -13,6 +16,8 @@ pub(super) const TICK_SIZE: f64 = 8.0;
 pub(super) const LABEL_SIZE: f64 = 10.0;
 /// Legends, labels of markers and of points.
 pub(super) const NOTE_SIZE: f64 = 9.0;
+/// Height of the row of a panel's letter and title.
+pub(super) const HEADER: f64 = 16.0;
 /// Letters of panels.
 pub(super) const LETTER_SIZE: f64 = 10.0;
 
@@ -24,11 +29,18 @@ pub(super) const MARKER_INK: &str = "#555555";
 pub(super) const LINK_INK: &str = "#8c8c8c";
 /// Background of shaded spans.
 pub(super) const SHADE: &str = "#eeeeee";
-/// Nodes that belong to no cluster.
-pub(super) const UNCLUSTERED: &str = "#dddddd";
+/// Nodes that belong to no cluster, and cells without a value.
+pub(super) const UNCLUSTERED: &str = "#d3d3d3";
 
-const PALETTE: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+/// Colours that lines share with clusters.
+const N_LINE_COLOURS: usize = 7;
+#[rustfmt::skip]
+const PALETTE: [&str; 30] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#69001e",
+    "#004b00", "#2d1e87", "#962d96", "#3cf096", "#785a3c", "#f0e100", "#ffa5ff", "#8778f0",
+    "#b41e3c", "#87b400", "#2df0ff", "#007800", "#3c4b69", "#96872d", "#876996", "#690069",
+    "#5a3cb4", "#ff9696", "#4bc3a5", "#b4a5ff", "#1e7869", "#5a3c00",
+];
 const DASHES: [&str; 4] = ["", "6 2", "6 1.5 1.2 1.5", "2 1.2"];
 const SHAPES: [Shape; 6] = [
     Shape::Circle,
@@ -89,21 +101,14 @@ impl Shape {
 
 /// How series `number` is drawn: its line and the marks on it.
 pub(super) fn series_style(number: usize) -> (Stroke, Shape) {
-    let colour = PALETTE[number % PALETTE.len()];
+    let colour = PALETTE[number % N_LINE_COLOURS];
     let dash = DASHES[number % DASHES.len()];
     (Stroke { colour, width: SERIES_WIDTH, dash }, SHAPES[number % SHAPES.len()])
 }
 
-/// Fill of the nodes of cluster `number`: the palette, then its tints, then its shades, then the
-/// palette again (after 21 clusters).
-pub(super) fn cluster_fill(number: usize) -> String {
-    let [r, g, b] = channels(PALETTE[number % PALETTE.len()]);
-    let mix = |c: f64| match number / PALETTE.len() % 3 {
-        0 => c,
-        1 => 0.45 * c + 0.55 * 255.0,
-        _ => 0.55 * c + 0.1 * 255.0,
-    };
-    format!("#{:02x}{:02x}{:02x}", mix(r) as u8, mix(g) as u8, mix(b) as u8)
+/// Fill of the nodes of cluster `number`; after 30 clusters the palette begins anew.
+pub(super) fn cluster_fill(number: usize) -> &'static str {
+    PALETTE[number % PALETTE.len()]
 }
 
 /// Black or white, whichever reads better on `fill` (relative luminance of WCAG 2, without its
@@ -123,11 +128,40 @@ mod tests {
     use super::*;
     use std::collections::HashSet;
 
+    /// Lightness and the two opponent axes of B. Ottosson's Oklab (2020).
+    fn oklab(hex: &str) -> [f64; 3] {
+        let [r, g, b] = channels(hex)
+            .map(|c| c / 255.0)
+            .map(|c| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) });
+        let l = (0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b).cbrt();
+        let m = (0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b).cbrt();
+        let s = (0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b).cbrt();
+        [
+            0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s,
+        ]
+    }
+
     #[test]
-    fn first_twenty_one_clusters_have_their_own_colours() {
-        let fills: HashSet<_> = (0..21).map(cluster_fill).collect();
-        assert_eq!(fills.len(), 21);
-        assert_eq!(cluster_fill(21), cluster_fill(0));
+    fn thirty_clusters_the_page_and_unclustered_nodes_look_different() {
+        // Black and white are 1 apart in Oklab; the tenth of that is seen at a glance.
+        let mut shown: Vec<_> = (0..30).map(|k| oklab(cluster_fill(k))).collect();
+        shown.extend([oklab("#ffffff"), oklab(UNCLUSTERED)]);
+        for (k, a) in shown.iter().enumerate().take(30) {
+            for b in &shown[k + 1..] {
+                let distance = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                assert!(distance > 0.11, "cluster {k}: {distance}");
+            }
+        }
+        assert_eq!(cluster_fill(30), cluster_fill(0));
+    }
+
+    #[test]
+    fn lines_have_the_colours_of_the_clusters_of_their_numbers() {
+        for k in 0..N_LINE_COLOURS {
+            assert_eq!(series_style(k).0.colour, cluster_fill(k));
+        }
     }
 
     #[test]

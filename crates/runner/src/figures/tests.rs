@@ -128,7 +128,7 @@ fn the_png_is_of_the_size_on_paper_and_shows_every_colour() {
     let info = reader.next_frame(&mut pixels).unwrap();
     assert_eq!((info.width, info.height), (1004, 413));
     let has = |rgb: [u8; 3]| pixels.chunks(3).any(|p| p == rgb);
-    assert!(has([255; 3]) && has([0; 3]) && has([0xdd; 3]) && has([0x00, 0x72, 0xb2]));
+    assert!(has([255; 3]) && has([0; 3]) && has([0xd3; 3]) && has([0x00, 0x72, 0xb2]));
 }
 
 #[test]
@@ -183,4 +183,42 @@ fn impossible_grids_are_refused() {
     assert!(matches!(flat.svg(), Err(FigureError::TooSmall { .. })));
     flat.height_mm = f64::NAN;
     assert!(matches!(flat.svg(), Err(FigureError::BadSize { .. })));
+}
+
+#[test]
+fn marks_alone_are_joined_by_no_line_and_groups_are_named() {
+    let mode = |k: &str, scale: f64| Mode {
+        label: Label::math("v").subscript(k),
+        components: (0..40).map(|i| if i == 7 { f64::NAN } else { scale * f64::from(i) }).collect(),
+    };
+    let groups = [0..10, 10..38, 38..40]
+        .map(|nodes| Group { label: Label::text(format!("division {}", nodes.start)), nodes });
+    let panel = components_panel(&[mode("2", 1.0), mode("3", -0.5)], &groups);
+    let svg = with_lines(panel).svg().unwrap();
+    assert_eq!(count(&svg, "polyline"), 0);
+    // Each mode is one path: circles with a move for every finite component, and squares.
+    let document = Document::parse(&svg).unwrap();
+    let paths = document.descendants().filter(|n| n.has_tag_name("path"));
+    let moves: Vec<_> = paths.map(|n| n.attribute("d").unwrap().matches('M').count()).collect();
+    assert_eq!(moves[moves.len() - 2..], [39, 39]);
+    let texts = texts(&svg);
+    for expected in ["node i", "vk,i", "v2", "v3", "division 0", "division 10"] {
+        assert!(texts.iter().any(|t| t == expected), "no {expected} among {texts:?}");
+    }
+    assert!(!texts.iter().any(|t| t == "division 38"), "a name is wider than its group");
+}
+
+#[test]
+fn lines_stand_between_groups_only() {
+    let mode = Mode { label: Label::math("v"), components: vec![0.1; 9] };
+    let drawn = |ends: &[[usize; 2]]| {
+        let group = |&[from, to]: &[usize; 2]| Group { label: Label::default(), nodes: from..to };
+        let groups: Vec<Group> = ends.iter().map(group).collect();
+        let panel = components_panel(std::slice::from_ref(&mode), &groups);
+        count(&with_lines(panel).svg().unwrap(), "line")
+    };
+    let none = drawn(&[]);
+    assert_eq!(drawn(&[[0, 9]]), none);
+    assert_eq!(drawn(&[[0, 3], [3, 9]]), none + 1);
+    assert_eq!(drawn(&[[0, 3], [5, 9]]), none + 2);
 }
