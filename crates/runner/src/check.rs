@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
+use clustering::ClusterRule;
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
-use dynamics::{Observables, Schedule, Simulation};
+use dynamics::{Adaptive, AdaptiveOrder, Method, Observables, Schedule, Simulation};
 
 use crate::plan::{Plan, Sweep};
 use crate::spec::MatrixKind;
@@ -61,7 +62,13 @@ pub fn describe(plan: &Plan) -> String {
     };
     let (from, to) = (&experiment.coupling.from, &experiment.coupling.to);
     line("coupling", format!("{matrix}; {from} into {to}"));
-    line("prediction", format!("clusters: {:?}", plan.rule));
+    line(
+        "prediction",
+        match plan.rule {
+            ClusterRule::Exact => "exact clusters".into(),
+            ClusterRule::Threshold(threshold) => format!("clusters at the threshold {threshold}"),
+        },
+    );
     let (times, sigma) = (plan.msf.times, &plan.msf.sigma);
     line(
         "msf",
@@ -80,13 +87,13 @@ pub fn describe(plan: &Plan) -> String {
         line(
             "sweep",
             format!(
-                "{} values of epsilon, {} to {}; {} seeds; {:?}, step {}, transient {}, average {}; \
+                "{} values of epsilon, {} to {}; {} seeds; {}, step {}, transient {}, average {}; \
                  synchronised below {}",
                 epsilon.len(),
                 epsilon[0],
                 epsilon[epsilon.len() - 1],
                 sweep.seeds.len(),
-                sweep.method,
+                method(sweep),
                 schedule.step,
                 schedule.transient,
                 schedule.average,
@@ -97,6 +104,15 @@ pub fn describe(plan: &Plan) -> String {
     line("claims", experiment.claims.len().to_string());
     line("cost", cost(plan));
     text
+}
+
+/// The integrator by the name that experiment files call it.
+fn method(sweep: &Sweep) -> &'static str {
+    match sweep.method {
+        Method::Rk4 => "rk4",
+        Method::Adaptive(Adaptive { order: AdaptiveOrder::Five, .. }) => "dopri5",
+        Method::Adaptive(Adaptive { order: AdaptiveOrder::Eight, .. }) => "dop853",
+    }
 }
 
 /// Steps to be done, and the time they will take at the speed of a short trial on this machine.

@@ -7,8 +7,9 @@ use graph::Network;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::agreement::Agreement;
 use crate::findings::Findings;
-use crate::plan::Plan;
+use crate::plan::{Plan, nodes_named};
 use crate::problem::{Problem, Result};
 use crate::spec::{ClaimSpec, Name, Quantity};
 
@@ -172,6 +173,15 @@ impl Judge<'_> {
                 });
                 vec![error.filter(|error| error.is_finite())]
             }
+            Quantity::Nodes => vec![Some(self.plan.network.n_nodes() as f64)],
+            Quantity::Links => vec![Some(self.plan.network.n_links() as f64)],
+            Quantity::Groups => vec![Some(self.plan.network.groups().len() as f64)],
+            Quantity::Pearson => vec![self.agreement(|a| Some(a.correlation?.pearson))],
+            Quantity::Spearman => vec![self.agreement(|a| Some(a.correlation?.spearman))],
+            Quantity::RandIndex => vec![self.agreement(|a| a.rand_index)],
+            Quantity::RegionVerdicts => {
+                vec![self.agreement(|a| Some(a.regions.as_ref()?.agreement.verdict_fraction()))]
+            }
             // Judged by their own functions.
             Quantity::Eigenvectors
             | Quantity::CascadeClusters
@@ -179,6 +189,12 @@ impl Judge<'_> {
             | Quantity::CascadeOrder
             | Quantity::SimulatedOrder => vec![],
         }
+    }
+
+    /// A number of the agreement at the claim's ε.
+    fn agreement(&self, of: impl Fn(&Agreement) -> Option<f64>) -> Option<f64> {
+        let position = self.findings.simulated.as_ref()?.position(self.spec.at.epsilon?)?;
+        of(self.findings.agreement.get(position)?)
     }
 
     /// How well the obtained number is known, where that is known itself.
@@ -279,8 +295,9 @@ impl Judge<'_> {
     /// Node numbers of labels that the plan has checked.
     fn nodes(&self, clusters: &[Vec<Name>]) -> Vec<Vec<usize>> {
         let network = &self.plan.network;
-        let nodes =
-            |cluster: &Vec<Name>| cluster.iter().filter_map(|name| network.node(&name.0)).collect();
+        let nodes = |cluster: &Vec<Name>| {
+            cluster.iter().filter_map(|name| nodes_named(network, name)).flatten().collect()
+        };
         clusters.iter().map(nodes).collect()
     }
 }

@@ -5,10 +5,12 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 
+use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
 use crate::plan;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
+use crate::spec::FigureKind;
 use crate::{check, claims, compare, findings, load, record, results, table};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
@@ -113,21 +115,32 @@ pub fn run(cli: Cli) -> Result<bool> {
 /// Plans all files before running any, so that a slip in the last one shows at once.
 fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> {
     let started = Instant::now();
-    let plans = plan::all(files, quick)?;
+    let (plans, left_out) = plan::all(files, quick)?;
     record::check_writable(&folders.results)?;
-    let mut judged: Vec<(String, Vec<Claim>, Duration)> = Vec::new();
+    let mut curves = findings::Curves::default();
+    let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
+    let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
     for plan in &plans {
         check::warn(plan);
         let started = Instant::now();
-        let found = findings::find(plan, &Stages::new(&plan.id))?;
+        let found = findings::find(plan, &mut curves, &Stages::new(&plan.id))?;
         let claims = claims::judge(plan, &found)?;
         let place = results::write(plan, &found, claims.clone(), started, &folders.results)?;
         eprintln!("{}: {} in {}", plan.id, place.display(), seconds(started.elapsed()));
-        judged.push((plan.id.clone(), claims, started.elapsed()));
+        judged.push((plan.id.clone(), claims));
+        if plan.figure().kind != FigureKind::Sweep {
+            let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
+            let rows = epsilon.into_iter().zip(found.agreement);
+            agreements.extend(rows.map(|(epsilon, row)| (plan.id.clone(), epsilon, row)));
+        }
     }
-    let with_claims = judged.iter().filter(|(_, claims, _)| !claims.is_empty());
-    println!("{}", table::claims(with_claims.map(|(id, claims, _)| (id.as_str(), &claims[..]))));
-    let all = || judged.iter().flat_map(|(_, claims, _)| claims);
+    let with_claims = judged.iter().filter(|(_, claims)| !claims.is_empty());
+    println!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
+    let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
+    if let Some(table) = table::agreement(rows) {
+        println!("{table}\n");
+    }
+    let all = || judged.iter().flat_map(|(_, claims)| claims);
     for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
         println!("{}: {}", claim.name.replace('_', " "), claim.reason);
     }
@@ -139,6 +152,9 @@ fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> 
         count(Verdict::Differs),
         seconds(started.elapsed())
     );
+    for problem in &left_out {
+        println!("left out: {problem}");
+    }
     let ids: Vec<String> = plans.iter().map(|plan| plan.id.clone()).collect();
     let golden = compare_all(&ids, folders)?;
     Ok(golden && count(Verdict::Differs) == 0)

@@ -187,6 +187,7 @@ impl Walk<'_> {
             _ if kind.starts_with("claims") || kind.ends_with("standard_error") => Rule::Note,
             _ if kind.ends_with("spread") || kind.contains("of_seeds") => Rule::Note,
             _ if kind.starts_with("simulations[].clusters") => Rule::Note,
+            _ if kind.starts_with("simulations[].agreement") => Rule::Note,
             "msf.confidence_interval[]" => Rule::Note,
             _ => Rule::Exact,
         }

@@ -1,5 +1,10 @@
-//! The figure of an experiment: the panels of the paper's Fig. 1 from what was found. The network
+//! The figure of an experiment of [`FigureKind::Sweep`], the panels of the paper's Fig. 1: the network
 //! coloured by clusters, errors against ε with the predicted critical couplings marked, and Λ(σ).
+//! `drawing/pairs` has the other kinds.
+
+mod pairs;
+
+pub use pairs::error_matrix;
 
 use std::ops::Range;
 
@@ -10,13 +15,22 @@ use crate::figures::{
 use crate::findings::Findings;
 use crate::plan::{Plan, Sweep};
 use crate::simulated::{OverSeeds, Simulated};
-use crate::spec::{ErrorScale, Layout, SpreadKind};
+use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
 
 /// Resolution of the PNG: what journals ask for.
 pub const DOTS_PER_INCH: f64 = 300.0;
 
-/// The figure: the network above Λ(σ) at the left, the sweep (if there is one) at the right.
+/// The figure of the kind that the experiment asks for.
 pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
+    match (plan.figure().kind, &findings.simulated) {
+        (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
+        (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
+        _ => sweep(plan, findings),
+    }
+}
+
+/// The network above Λ(σ) at the left, the sweep (if there is one) at the right.
+fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     let letter = |number: usize| format!("({}{number})", plan.figure().letter);
     let left = |row: usize, number: usize, content: Content| Panel {
         letter: letter(number),

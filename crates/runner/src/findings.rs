@@ -5,6 +5,7 @@ use dynamics::DynamicsError;
 use msf::{CriticalCoupling, MasterStability};
 use spectra::Spectrum;
 
+use crate::agreement::{self, Agreement};
 use crate::plan::{Plan, Sweep};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
@@ -18,22 +19,44 @@ pub struct Findings {
     /// Predicted states, from large ε down; neighbours differ in their clusters.
     pub cascade: Vec<State>,
     pub simulated: Option<Simulated>,
+    /// At every ε of the sweep; empty without one, or without all pairs.
+    pub agreement: Vec<Agreement>,
+}
+
+/// The master stability functions computed so far: experiments that ask for the same one share it.
+#[derive(Default)]
+pub struct Curves(Vec<(msf::Node, msf::Request, MasterStability)>);
+
+impl Curves {
+    /// The curve of a plan, computed unless an earlier plan had the same node and request.
+    fn of(&mut self, plan: &Plan, stages: &Stages) -> Result<MasterStability> {
+        let same = |known: &&(msf::Node, msf::Request, MasterStability)| {
+            known.0 == plan.node && known.1 == plan.msf
+        };
+        if let Some((_, _, curve)) = self.0.iter().find(same) {
+            return Ok(curve.clone());
+        }
+        let compute = |progress: dynamics::Progress<'_>| {
+            msf::master_stability(&plan.node, &plan.msf, progress)
+        };
+        let curve = stages
+            .measured("msf", plan.msf_steps(), compute)
+            .map_err(|error| msf_problem(plan, &error))?;
+        refuse_overflow(plan, &curve)?;
+        self.0.push((plan.node, plan.msf.clone(), curve.clone()));
+        Ok(curve)
+    }
 }
 
 /// Runs a plan: spectrum, MSF, prediction, simulation.
-pub fn find(plan: &Plan, stages: &Stages) -> Result<Findings> {
+pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Findings> {
     let failed = |what: &str, error: &dyn std::fmt::Display| {
         Problem::from_error(what, error).in_file(&plan.file)
     };
     let spectrum = stages
         .unmeasured("spectrum", || spectra::leading_modes(&plan.matrix, &plan.spectrum))
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
-    let msf = stages
-        .measured("msf", plan.msf_steps(), |progress| {
-            msf::master_stability(&plan.node, &plan.msf, progress)
-        })
-        .map_err(|error| msf_problem(plan, &error))?;
-    refuse_overflow(plan, &msf)?;
+    let msf = curves.of(plan, stages)?;
     let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
     let states = clustering::cascade(&spectrum, &msf.stable_region(), plan.rule)
         .map_err(|error| failed("the cascade could not be predicted", &error))?;
@@ -41,7 +64,13 @@ pub fn find(plan: &Plan, stages: &Stages) -> Result<Findings> {
         Some(sweep) => Some(simulate(plan, sweep, stages)?),
         None => None,
     };
-    Ok(Findings { cascade: merge_equal_clusters(&states), spectrum, msf, critical, simulated })
+    let agreement = match &simulated {
+        Some(simulated) => stages
+            .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
+        None => Vec::new(),
+    };
+    let cascade = merge_equal_clusters(&states);
+    Ok(Findings { cascade, spectrum, msf, critical, simulated, agreement })
 }
 
 fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {
@@ -91,10 +120,7 @@ fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
 impl Findings {
     /// The clusters predicted at a coupling strength; none where the prediction does not reach.
     pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
-        let holds = |state: &&State| {
-            epsilon > state.epsilon.0 && state.epsilon.1.is_none_or(|to| epsilon <= to)
-        };
-        self.cascade.iter().find(holds).map(|state| &state.clusters)
+        self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &state.clusters)
     }
 
     /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.

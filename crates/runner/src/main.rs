@@ -5,6 +5,7 @@
 //! `drawing`), `compare` holds it against the golden outputs. Only this crate knows paths, clocks
 //! and terminals; it knows no numerical method.
 
+mod agreement;
 mod check;
 mod claims;
 mod cli;

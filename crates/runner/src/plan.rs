@@ -4,13 +4,17 @@
 mod claims;
 mod network;
 mod numbers;
+mod source;
 
 use std::path::{Path, PathBuf};
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
 use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Replica, Schedule};
+use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
+
+pub use network::nodes_named;
 
 use crate::problem::{Problem, Result};
 use crate::spec::{Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr};
@@ -37,6 +41,8 @@ pub struct Plan {
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
+    /// What each step of preparation did.
+    pub preparation: Vec<Report>,
     pub matrix: CouplingMatrix,
     pub spectrum: spectra::Request,
     pub node: msf::Node,
@@ -76,9 +82,17 @@ impl Plan {
     }
 }
 
-/// Plans all files; two of one name would overwrite each other's results.
-pub fn all(files: &[PathBuf], quick: bool) -> Result<Vec<Plan>> {
-    let plans: Vec<Plan> = files.iter().map(|file| plan(file, quick)).collect::<Result<_>>()?;
+/// Plans all files; two of one name would overwrite each other's results. Experiments whose data are
+/// not here come apart, as the problems that say so.
+pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> {
+    let (mut plans, mut left_out): (Vec<Plan>, _) = (Vec::new(), Vec::new());
+    for file in files {
+        match plan(file, quick) {
+            Ok(plan) => plans.push(plan),
+            Err(problem) if problem.is_left_out() => left_out.push(problem),
+            Err(problem) => return Err(problem),
+        }
+    }
     for (position, later) in plans.iter().enumerate() {
         if let Some(earlier) = plans[..position].iter().find(|plan| plan.id == later.id) {
             let message = format!(
@@ -89,7 +103,7 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<Vec<Plan>> {
             return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
         }
     }
-    Ok(plans)
+    Ok((plans, left_out))
 }
 
 /// Checks an experiment file and reads what it names.
@@ -101,7 +115,7 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
         .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))?;
     let shortened = if quick { QUICK } else { 1.0 };
     let checker = Checker { file, experiment: &experiment, shortened };
-    let network = checker.network()?;
+    let (network, preparation) = checker.network()?;
     let matrix = CouplingMatrix::new(&network, checker.normalization());
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
@@ -114,6 +128,7 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
         file: file.to_owned(),
         shortened,
         network,
+        preparation,
         matrix,
         node,
         experiment: experiment.clone(),

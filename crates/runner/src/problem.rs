@@ -10,6 +10,8 @@ pub struct Problem {
     place: Option<String>,
     message: String,
     hint: Option<String>,
+    /// Whether it only leaves an experiment out: its data may not be shipped and are not here.
+    left_out: bool,
 }
 
 /// What most of this crate returns.
@@ -17,7 +19,7 @@ pub type Result<T> = std::result::Result<T, Problem>;
 
 impl Problem {
     pub fn new(message: impl Into<String>) -> Self {
-        Self { place: None, message: message.into(), hint: None }
+        Self { place: None, message: message.into(), hint: None, left_out: false }
     }
 
     /// A problem with one key of an experiment file.
@@ -40,6 +42,17 @@ impl Problem {
     pub fn at(mut self, place: String) -> Self {
         self.place.get_or_insert(place);
         self
+    }
+
+    /// Marks what is no reason to stop the other experiments.
+    #[must_use]
+    pub fn left_out(mut self) -> Self {
+        self.left_out = true;
+        self
+    }
+
+    pub fn is_left_out(&self) -> bool {
+        self.left_out
     }
 
     #[must_use]

@@ -8,6 +8,7 @@ use std::time::Duration;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::agreement::Agreement;
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
 use crate::plan::Plan;
@@ -38,10 +39,27 @@ pub struct Summary {
 
 #[derive(Serialize)]
 pub struct NetworkRecord {
+    /// What each step of preparation removed and left.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub preparation: Vec<StepRecord>,
+    pub groups: usize,
     pub nodes: usize,
     pub links: usize,
     pub components: usize,
     pub isolated_nodes: usize,
+}
+
+#[derive(Serialize)]
+pub struct StepRecord {
+    pub step: String,
+    pub removed_nodes: usize,
+    pub removed_groups: Vec<String>,
+    pub removed_links: usize,
+    pub removed_self_loops: usize,
+    pub changed_links: usize,
+    pub nodes: usize,
+    pub links: usize,
+    pub directed: bool,
 }
 
 #[derive(Serialize)]
@@ -103,12 +121,40 @@ pub struct SimulationRecord {
     pub outcome: String,
     /// Simulated clusters of two nodes or more.
     pub clusters: Option<Vec<Vec<String>>>,
+    /// Prediction against simulation, where all pairs were observed and a mode is unstable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub agreement: Option<AgreementRecord>,
     /// δx_i of every node to the reference node.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub error_to_reference: Vec<Option<OverSeeds>>,
     /// δx^c_m of every cluster of the experiment.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub error_within_clusters: Vec<Option<OverSeeds>>,
+}
+
+/// Prediction against simulation at one ε.
+#[derive(Serialize)]
+pub struct AgreementRecord {
+    /// Pearson's correlation of δx_ij with δe_ij over all pairs.
+    pub pearson: Option<f64>,
+    /// Spearman's.
+    pub spearman: Option<f64>,
+    /// Adjusted Rand index of predicted and simulated clusters.
+    pub adjusted_rand_index: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub regions: Option<RegionRecord>,
+}
+
+/// Regions of prediction and simulation.
+#[derive(Serialize)]
+pub struct RegionRecord {
+    /// Clusters of regions by name; regions in none are not synchronisable.
+    pub predicted: Vec<Vec<String>>,
+    pub simulated: Vec<Vec<String>>,
+    /// Fraction of regions of the same verdict.
+    pub same_verdict: f64,
+    /// Of the clusters of the regions that are synchronisable in both.
+    pub adjusted_rand_index: Option<f64>,
 }
 
 /// Collects a summary.
@@ -120,6 +166,8 @@ pub fn summarise(plan: &Plan, findings: &Findings, claims: Vec<Claim>, took: Dur
         source: plan.experiment.source.clone(),
         shortened: plan.shortened,
         network: NetworkRecord {
+            preparation: plan.preparation.iter().map(step_record).collect(),
+            groups: network.groups().len(),
             nodes: network.n_nodes(),
             links: network.n_links(),
             components: network.components().len(),
@@ -147,6 +195,20 @@ pub fn summarise(plan: &Plan, findings: &Findings, claims: Vec<Claim>, took: Dur
         claims,
         provenance: Provenance::new(plan, took),
         experiment: plan.written.clone(),
+    }
+}
+
+fn step_record(report: &graph::prepare::Report) -> StepRecord {
+    StepRecord {
+        step: format!("{:?}", report.step),
+        removed_nodes: report.removed_nodes.len(),
+        removed_groups: report.removed_groups.clone(),
+        removed_links: report.removed_links,
+        removed_self_loops: report.removed_self_loops,
+        changed_links: report.changed_links,
+        nodes: report.n_nodes,
+        links: report.n_links,
+        directed: report.directed,
     }
 }
 
@@ -214,6 +276,11 @@ fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord>
                 some => format!("{some} of {} escaped", runs.len()),
             },
             clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
+            agreement: findings
+                .agreement
+                .get(position)
+                .filter(|agreement| agreement.distance.is_some())
+                .map(|agreement| agreement_record(plan, agreement)),
             error_to_reference: (0..reference)
                 .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
                 .collect(),
@@ -225,17 +292,36 @@ fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord>
     simulated.epsilon.iter().enumerate().map(record).collect()
 }
 
+fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
+    let groups = plan.network.groups();
+    let names = |clusters: Vec<Vec<usize>>| {
+        let name = |region: &usize| groups[*region].name.clone();
+        clusters.iter().map(|regions| regions.iter().map(name).collect()).collect()
+    };
+    AgreementRecord {
+        pearson: agreement.correlation.map(|correlation| correlation.pearson),
+        spearman: agreement.correlation.map(|correlation| correlation.spearman),
+        adjusted_rand_index: agreement.rand_index,
+        regions: agreement.regions.as_ref().map(|regions| RegionRecord {
+            predicted: names(regions.predicted.clusters()),
+            simulated: names(regions.simulated.clusters()),
+            same_verdict: regions.agreement.verdict_fraction(),
+            adjusted_rand_index: regions.agreement.adjusted_rand_index,
+        }),
+    }
+}
+
 fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {
     let labels = labelled(clusters, &plan.network).into_iter();
     labels.map(|cluster| cluster.into_iter().map(str::to_owned).collect()).collect()
 }
 
-/// Sees to it that there is a folder for results in which folders can be made, before hours are spent
-/// on what could not be kept.
+/// Sees to it that there is a folder for results that can be written to, before hours are spent on
+/// what could not be kept. The file made as a trial has no name, so that nothing of it can stay.
 pub fn check_writable(results: &Path) -> Result<()> {
     fs::create_dir_all(results)
-        .and_then(|()| tempfile::Builder::new().prefix(".trial-").tempdir_in(results))
-        .and_then(tempfile::TempDir::close)
+        .and_then(|()| tempfile::tempfile_in(results))
+        .map(drop)
         .map_err(|error| Problem::from_error("cannot be written to", error).in_file(results))
 }
 

@@ -12,6 +12,7 @@ use crate::plan::Plan;
 use crate::problem::{Problem, Result};
 use crate::record::{Folder, summarise};
 use crate::simulated::{Simulated, completed};
+use crate::spec::FigureKind;
 
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
@@ -30,6 +31,7 @@ pub fn write(
     if let Some(simulated) = &findings.simulated {
         write_sweep(&folder, plan, simulated)?;
     }
+    write_matrices(&folder, plan, findings)?;
     let failed = |error: &dyn std::fmt::Display| {
         Problem::from_error("the figure cannot be drawn", error).in_file(&plan.file)
     };
@@ -107,6 +109,37 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
         row
     });
     folder.write_table("sweep.csv", &header, rows)
+}
+
+/// δe_ij and δx_ij of every ε, where the figure shows them, as NumPy arrays of shape (N, N).
+fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
+    let Some(simulated) = &findings.simulated else { return Ok(()) };
+    if plan.figure().kind == FigureKind::Sweep {
+        return Ok(());
+    }
+    let n_nodes = plan.network.n_nodes();
+    for (position, epsilon) in simulated.epsilon.iter().enumerate() {
+        let distance = findings.agreement.get(position).and_then(|a| a.distance.as_ref());
+        if let Some(distance) = distance {
+            let name = format!("distance_epsilon_{epsilon}.npy");
+            folder.write(&name, npy(n_nodes, &distance.matrix()))?;
+        }
+        let errors = drawing::error_matrix(plan, simulated, position);
+        folder.write(&format!("error_epsilon_{epsilon}.npy"), npy(n_nodes, &errors))?;
+    }
+    Ok(())
+}
+
+/// A square matrix in NumPy's format.
+fn npy(n_nodes: usize, values: &[f64]) -> Vec<u8> {
+    use npyz::WriterBuilder;
+    let mut bytes = Vec::new();
+    let shape = [n_nodes as u64, n_nodes as u64];
+    let options = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut bytes);
+    let mut writer = options.begin_nd().expect("memory takes every byte");
+    writer.extend(values).expect("memory takes every byte");
+    writer.finish().expect("as many values as the shape says");
+    bytes
 }
 
 /// The shortest text that reads back as the same number.

@@ -30,6 +30,19 @@ pub struct OverSeeds {
     pub standard_error: f64,
 }
 
+/// δx_ij of all pairs i < j.
+pub struct MeanPairs {
+    n_nodes: usize,
+    means: Vec<f64>,
+}
+
+impl MeanPairs {
+    /// δx_ij, zero for i = j.
+    pub fn of(&self, i: usize, j: usize) -> f64 {
+        if i == j { 0.0 } else { self.means[dynamics::pair_index(i, j, self.n_nodes)] }
+    }
+}
+
 /// ε from which on clusters stay synchronised, over all seeds.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Onset {
@@ -91,20 +104,28 @@ impl Simulated {
         })
     }
 
+    /// Whether errors of all pairs were observed.
+    pub fn has_pairs(&self) -> bool {
+        self.runs.iter().find_map(completed).is_some_and(|errors| !errors.pairs.is_empty())
+    }
+
+    /// δx_ij at one ε as means over the seeds that stayed bounded; none if none did.
+    pub fn mean_pairs(&self, position: usize) -> Option<MeanPairs> {
+        let errors: Vec<&Errors> = self.at(position).iter().filter_map(completed).collect();
+        let first = errors.first().filter(|errors| !errors.pairs.is_empty())?;
+        let mean = |pair: usize| {
+            errors.iter().map(|errors| errors.pairs[pair].mean).sum::<f64>() / errors.len() as f64
+        };
+        Some(MeanPairs { n_nodes: self.n_nodes, means: (0..first.pairs.len()).map(mean).collect() })
+    }
+
     /// Clusters at one ε: single linkage of the mean δx_ij over seeds. None unless pairs were observed
     /// and a run stayed bounded.
     pub fn clusters(&self, position: usize) -> Option<Partition> {
-        let errors: Vec<&Errors> = self.at(position).iter().filter_map(completed).collect();
-        if errors.is_empty() || errors[0].pairs.is_empty() {
-            return None;
-        }
-        let mean = |i, j| {
-            let sum: f64 = errors.iter().map(|errors| errors.pair(i, j, self.n_nodes)).sum();
-            sum / errors.len() as f64
-        };
+        let mean = self.mean_pairs(position)?;
         // Below, not at: a threshold belongs to those that are not synchronised.
         let threshold = self.synchronised_below.next_down();
-        Some(Partition::single_linkage(self.n_nodes, mean, threshold))
+        Some(Partition::single_linkage(self.n_nodes, |i, j| mean.of(i, j), threshold))
     }
 
     /// δx^c_m of any set of nodes in one run: the mean over its pairs; infinite if the run escaped.

@@ -3,15 +3,20 @@
 //!
 //! All times are in model time units, all coupling strengths in units of the coupling matrix.
 
-use std::fmt;
-use std::marker::PhantomData;
-use std::path::PathBuf;
+mod network;
 
 use dynamics::Model;
 use indexmap::IndexMap;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::fmt;
+use std::marker::PhantomData;
+
+pub use network::{
+    CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RegionsSpec,
+    RowsSpec, StepSpec, SymmetriseSpec,
+};
 
 /// An experiment: one network, one oscillator, one question.
 #[derive(Clone, Debug, Deserialize)]
@@ -26,6 +31,11 @@ pub struct Experiment {
     #[serde(default = "one")]
     pub seed: u64,
     pub network: NetworkSpec,
+    /// Steps from what a file holds to a network: undirected, weights above zero, no self-loops.
+    #[serde(default)]
+    pub prepare: Vec<StepSpec>,
+    pub groups: Option<GroupsSpec>,
+    pub regions: Option<RegionsSpec>,
     /// `[oscillator.NAME]` with its parameters; those left out have the defaults of the literature.
     pub oscillator: Model,
     pub coupling: CouplingSpec,
@@ -40,31 +50,6 @@ pub struct Experiment {
     pub figure: FigureSpec,
     #[serde(default)]
     pub claims: IndexMap<String, ClaimSpec>,
-}
-
-/// `[network.file]`: where the network comes from.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum NetworkSpec {
-    /// A file of links.
-    File(FileSpec),
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FileSpec {
-    /// Relative to the experiment file.
-    pub path: PathBuf,
-    #[serde(default)]
-    pub format: Format,
-}
-
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Format {
-    /// A link a line: two labels and, if it is not 1, a weight.
-    #[default]
-    EdgeList,
 }
 
 /// `[coupling]`: the coupling matrix W and the coupling function H.
@@ -192,6 +177,11 @@ pub enum MethodKind {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FigureSpec {
+    /// What is drawn: the errors of a sweep against ε, matrices of distances and errors at every ε,
+    /// or the nodes in space, coloured by clusters of regions.
+    pub kind: FigureKind,
+    /// Modes whose eigenvectors are drawn beside matrices.
+    pub eigenvectors: Vec<usize>,
     /// Letter of the paper's panels: "a" gives (a1), (a2), …
     pub letter: String,
     /// How the network is laid out.
@@ -209,6 +199,8 @@ pub struct FigureSpec {
 impl Default for FigureSpec {
     fn default() -> Self {
         Self {
+            kind: FigureKind::Sweep,
+            eigenvectors: vec![2, 3, 4],
             letter: "a".into(),
             layout: Layout::Force,
             mark_modes: None,
@@ -217,6 +209,14 @@ impl Default for FigureSpec {
             spread: SpreadKind::Band,
         }
     }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum FigureKind {
+    Sweep,
+    Matrices,
+    Regions,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -309,6 +309,27 @@ pub enum Quantity {
     /// Largest δx^c_m of `where.clusters` at `where.epsilon`.
     #[serde(rename = "simulated.error")]
     SimulatedError,
+    /// Number of nodes of the network.
+    #[serde(rename = "network.nodes")]
+    Nodes,
+    /// Number of links of the network.
+    #[serde(rename = "network.links")]
+    Links,
+    /// Number of groups of the network.
+    #[serde(rename = "network.groups")]
+    Groups,
+    /// Pearson's correlation of δx_ij with δe_ij over all pairs at `where.epsilon`.
+    #[serde(rename = "agreement.pearson")]
+    Pearson,
+    /// Spearman's rank correlation of δx_ij with δe_ij over all pairs at `where.epsilon`.
+    #[serde(rename = "agreement.spearman")]
+    Spearman,
+    /// Adjusted Rand index of predicted and simulated clusters at `where.epsilon`.
+    #[serde(rename = "agreement.rand_index")]
+    RandIndex,
+    /// Fraction of regions of the same verdict in prediction and simulation at `where.epsilon`.
+    #[serde(rename = "agreement.regions")]
+    RegionVerdicts,
 }
 
 /// Which instance of a quantity a claim is about.

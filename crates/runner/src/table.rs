@@ -4,6 +4,7 @@ use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{ContentArrangement, Table};
 use serde_json::Value;
 
+use crate::agreement::Agreement;
 use crate::claims::Claim;
 
 /// Lists with more entries are abridged.
@@ -33,6 +34,40 @@ fn table(claims: &[Claim]) -> String {
         table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }
     table.to_string()
+}
+
+/// How prediction and simulation agree at each ε of the experiments that compare matrices.
+pub fn agreement<'a>(
+    of: impl IntoIterator<Item = (&'a str, f64, &'a Agreement)>,
+) -> Option<String> {
+    let mut table = Table::new();
+    table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header([
+        "experiment",
+        "ε",
+        "linear correlation",
+        "rank correlation",
+        "adjusted Rand index",
+        "regions alike",
+    ]);
+    let shown = |value: Option<f64>| value.map_or_else(|| "none".into(), |x| format!("{x:.3}"));
+    let mut is_empty = true;
+    for (id, epsilon, agreement) in of {
+        is_empty = false;
+        let regions = agreement.regions.as_ref().map(|regions| {
+            let alike = regions.agreement;
+            format!("{} of {}", alike.n_same_verdict, alike.n_regions)
+        });
+        table.add_row([
+            id.to_owned(),
+            four_digits(epsilon),
+            shown(agreement.correlation.map(|correlation| correlation.pearson)),
+            shown(agreement.correlation.map(|correlation| correlation.spearman)),
+            shown(agreement.rand_index),
+            regions.unwrap_or_default(),
+        ]);
+    }
+    (!is_empty).then(|| table.to_string())
 }
 
 /// A value with numbers of four significant digits and clusters in braces.

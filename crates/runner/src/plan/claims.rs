@@ -39,8 +39,8 @@ enum OneOrMany {
 impl Checker<'_> {
     /// What a claim needs beside its quantity must be there, and must name what exists.
     pub(super) fn claims(&self, plan: &Plan) -> Result<()> {
-        let claims = self.experiment.claims.iter();
-        claims.map(|(name, spec)| Claim { checker: self, name, spec, plan }.check()).collect()
+        let mut claims = self.experiment.claims.iter();
+        claims.try_for_each(|(name, spec)| Claim { checker: self, name, spec, plan }.check())
     }
 }
 
@@ -76,8 +76,13 @@ impl Claim<'_> {
         let [epsilon, modes, clusters] = match self.spec.of {
             Q::Eigenvalues => [Meaningless, Allowed, Meaningless],
             Q::Eigenvectors | Q::CriticalCouplings => [Meaningless, Needed, Meaningless],
-            Q::LyapunovIsolated | Q::SigmaC => [Meaningless; 3],
-            Q::CascadeClusters | Q::SimulatedClusters => [Needed, Meaningless, Meaningless],
+            Q::LyapunovIsolated | Q::SigmaC | Q::Nodes | Q::Links | Q::Groups => [Meaningless; 3],
+            Q::CascadeClusters
+            | Q::SimulatedClusters
+            | Q::Pearson
+            | Q::Spearman
+            | Q::RandIndex
+            | Q::RegionVerdicts => [Needed, Meaningless, Meaningless],
             Q::CascadeOrder | Q::SimulatedOrder | Q::SimulatedOnset => {
                 [Meaningless, Meaningless, Needed]
             }
@@ -116,7 +121,14 @@ impl Claim<'_> {
         use Quantity as Q;
         matches!(
             self.spec.of,
-            Q::SimulatedClusters | Q::SimulatedOnset | Q::SimulatedOrder | Q::SimulatedError
+            Q::SimulatedClusters
+                | Q::SimulatedOnset
+                | Q::SimulatedOrder
+                | Q::SimulatedError
+                | Q::Pearson
+                | Q::Spearman
+                | Q::RandIndex
+                | Q::RegionVerdicts
         )
     }
 
@@ -165,12 +177,10 @@ impl Claim<'_> {
         let modes = self.spec.at.modes.as_ref().map(Vec::len);
         match self.spec.of {
             Q::Eigenvalues | Q::CriticalCouplings => Shape::Numbers(modes),
-            Q::LyapunovIsolated | Q::SigmaC | Q::SimulatedOnset | Q::SimulatedError => {
-                Shape::Numbers(Some(1))
-            }
             Q::Eigenvectors => Shape::Vectors,
             Q::CascadeClusters | Q::SimulatedClusters => Shape::Clusters,
             Q::CascadeOrder | Q::SimulatedOrder => Shape::Order,
+            _ => Shape::Numbers(Some(1)),
         }
     }
 

@@ -1,44 +1,29 @@
 //! The network of an experiment, and whatever names its nodes or modes.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use graph::Network;
+use graph::prepare::Report;
 
 use super::Checker;
 use crate::problem::{Problem, Result};
-use crate::spec::{Format, Layout, Name, NetworkSpec};
+use crate::spec::{Layout, Name};
 
 impl Checker<'_> {
-    pub(super) fn network(&self) -> Result<Network> {
-        let NetworkSpec::File(spec) = &self.experiment.network;
-        let path = self.file.parent().unwrap_or(Path::new("")).join(&spec.path);
-        let named = |message: String| {
-            self.problem("network.file.path", format!("names {}{message}", path.display()))
-        };
-        let source = std::fs::File::open(&path).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => named(", which does not exist".into())
-                .hint("paths are relative to the folder of the experiment file"),
-            _ => named(format!(", which cannot be opened: {error}")),
-        })?;
-        if path.is_dir() {
-            return Err(named(", which is a folder; expected a file of links".into()));
-        }
-        let read = match spec.format {
-            Format::EdgeList => graph::formats::edge_list::read(source),
-        };
-        let network = read.map_err(|error| named(format!(": {error}")))?;
+    /// The network, with what its preparation did, if it can be coupled at all.
+    pub(super) fn network(&self) -> Result<(Network, Vec<Report>)> {
+        let (network, reports) = self.source()?;
         if network.n_nodes() == 1 {
-            let message = ", a network of one node; synchronisation needs two or more";
-            return Err(named(message.into()));
+            let message = "has one node; synchronisation needs two or more";
+            return Err(self.problem("network", message));
         }
         let strengths = network.strengths();
         if let Some(node) = strengths.iter().position(|strength| !strength.is_finite()) {
             let label = &network.labels()[node];
-            let message = format!(": the weights of node `{label}` add up to more than 1.8e308");
-            return Err(named(message));
+            let message = format!("has weights at node `{label}` that add up to more than 1.8e308");
+            return Err(self.problem("network", message));
         }
-        Ok(network)
+        Ok((network, reports))
     }
 
     pub(super) fn label(&self, key: &str, name: &Name, network: &Network) -> Result<usize> {
@@ -51,6 +36,14 @@ impl Checker<'_> {
         })
     }
 
+    /// The nodes that a name stands for: the one it labels, or a group.
+    fn nodes(&self, key: &str, name: &Name, network: &Network) -> Result<Vec<usize>> {
+        match nodes_named(network, name) {
+            Some(nodes) => Ok(nodes),
+            None => self.label(key, name, network).map(|node| vec![node]),
+        }
+    }
+
     /// Clusters of node labels as lists of nodes: two nodes or more each, none twice.
     pub(super) fn clusters(
         &self,
@@ -61,8 +54,11 @@ impl Checker<'_> {
         let mut seen = BTreeSet::new();
         let mut clusters = Vec::new();
         for names in named {
-            let nodes: Vec<usize> =
-                names.iter().map(|name| self.label(key, name, network)).collect::<Result<_>>()?;
+            let nodes: Vec<usize> = names
+                .iter()
+                .map(|name| self.nodes(key, name, network))
+                .collect::<Result<Vec<_>>>()?
+                .concat();
             if nodes.len() < 2 {
                 let names: Vec<_> = names.iter().map(|name| name.0.as_str()).collect();
                 let message = format!(
@@ -116,4 +112,10 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// The node with this label or, failing that, the nodes of the group of this name.
+pub fn nodes_named(network: &Network, name: &Name) -> Option<Vec<usize>> {
+    let group = || network.groups().iter().find(|group| group.name == name.0);
+    network.node(&name.0).map(|node| vec![node]).or_else(|| Some(group()?.nodes.clone()))
 }

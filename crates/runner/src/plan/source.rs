@@ -1,0 +1,210 @@
+//! Where the network of an experiment comes from: files, generators, preparation, groups.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use graph::formats::{self, Layout, Rows};
+use graph::generators::{LinkProbability, communities, hierarchical};
+use graph::prepare::{Report, Selection, Step, Symmetrise, apply};
+use graph::{Group, Network, RawNetwork};
+
+use super::Checker;
+use crate::problem::Result;
+use crate::spec::{
+    CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RowsSpec,
+    StepSpec, SymmetriseSpec,
+};
+
+impl Checker<'_> {
+    /// The network, prepared and grouped, with what each step of preparation did.
+    pub(super) fn source(&self) -> Result<(Network, Vec<Report>)> {
+        let mut raw = match &self.experiment.network {
+            NetworkSpec::File(spec) => self.file(spec)?,
+            NetworkSpec::Communities(spec) => self.communities(spec)?.into(),
+            NetworkSpec::Hierarchical(spec) => self.hierarchical(spec)?.into(),
+        };
+        let mut reports = Vec::new();
+        for (number, spec) in self.experiment.prepare.iter().enumerate() {
+            let refuse = |message: String| self.problem(&format!("prepare[{number}]"), message);
+            let step = step(spec).map_err(refuse)?;
+            let (next, report) = apply(&raw, &step)
+                .map_err(|error| refuse(format!("cannot be applied: {error}")))?;
+            raw = next;
+            reports.push(report);
+        }
+        let network = raw.into_network().map_err(|error| {
+            self.problem("network", format!("is no undirected network: {error}")).hint(
+                "`prepare` has steps such as { symmetrise = \"mean\" } and \"drop_self_loops\"",
+            )
+        })?;
+        Ok((self.grouped(network)?, reports))
+    }
+
+    fn beside(&self, path: &Path) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    fn file(&self, spec: &FileSpec) -> Result<RawNetwork> {
+        let key = "network.file.path";
+        let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
+        let layout = self.layout(spec)?;
+        let variable = spec.variable.as_deref();
+        let failed = |error: &dyn std::fmt::Display| {
+            self.problem(key, format!("names {}: {error}", path.display()))
+        };
+        match spec.format {
+            Format::EdgeList => {
+                formats::edge_list::read(source).map(RawNetwork::from).map_err(|e| failed(&e))
+            }
+            Format::MatrixMarket => {
+                formats::matrix_market::read(source, &layout).map_err(|e| failed(&e))
+            }
+            Format::Dense => formats::dense::read(source, &layout).map_err(|e| failed(&e)),
+            Format::Npy => formats::numpy::read_npy(source, &layout).map_err(|e| failed(&e)),
+            Format::Npz => {
+                formats::numpy::read_npz(source, variable, &layout).map_err(|e| failed(&e))
+            }
+            Format::Tvb => formats::tvb::read(source, &layout).map_err(|e| failed(&e)),
+            Format::Matlab => {
+                formats::matlab::read(source, variable, &layout).map_err(|e| failed(&e))
+            }
+        }
+    }
+
+    /// Opens a file that an experiment names. One that is fetched by a command and is not there leaves
+    /// the experiment out.
+    fn open(
+        &self,
+        key: &str,
+        path: &Path,
+        fetched_by: Option<&str>,
+    ) -> Result<(PathBuf, BufReader<File>)> {
+        let path = self.beside(path);
+        let named =
+            |message: String| self.problem(key, format!("names {}{message}", path.display()));
+        let source = File::open(&path).map_err(|error| match (error.kind(), fetched_by) {
+            (std::io::ErrorKind::NotFound, Some(command)) => named(", which is not here".into())
+                .hint(format!("`{command}` brings it"))
+                .left_out(),
+            (std::io::ErrorKind::NotFound, None) => named(", which does not exist".into())
+                .hint("paths are relative to the folder of the experiment file"),
+            _ => named(format!(", which cannot be opened: {error}")),
+        })?;
+        if path.is_dir() {
+            return Err(named(", which is a folder; expected a file of links".into()));
+        }
+        Ok((path, BufReader::new(source)))
+    }
+
+    fn layout(&self, spec: &FileSpec) -> Result<Layout> {
+        let block = match spec.block {
+            None => None,
+            Some(block) => {
+                Some(range(block).map_err(|why| self.problem("network.file.block", why))?)
+            }
+        };
+        let rows = match spec.rows {
+            RowsSpec::Driven => Rows::Driven,
+            RowsSpec::Driving => Rows::Driving,
+        };
+        Ok(Layout { rows, block })
+    }
+
+    fn communities(&self, spec: &CommunitiesSpec) -> Result<Network> {
+        let key = "network.communities";
+        let probability = match (&spec.probability, spec.p_within, spec.p_between) {
+            (Some(matrix), None, None) => LinkProbability::Matrix(matrix.clone()),
+            (None, Some(within), Some(between)) => LinkProbability::Uniform { within, between },
+            _ => {
+                let message = "needs either `p_within` and `p_between`, or `probability`";
+                return Err(self.problem(key, message));
+            }
+        };
+        communities(&spec.sizes, &probability, spec.seed.unwrap_or(self.experiment.seed))
+            .map_err(|error| self.problem(key, format!("cannot be generated: {error}")))
+    }
+
+    fn hierarchical(&self, spec: &HierarchicalSpec) -> Result<Network> {
+        let key = "network.hierarchical";
+        let (path, source) = self.open(&format!("{key}.path"), &spec.path, None)?;
+        let backbone = formats::edge_list::read(source).map_err(|error| {
+            self.problem(&format!("{key}.path"), format!("names {}: {error}", path.display()))
+        })?;
+        let seed = spec.seed.unwrap_or(self.experiment.seed);
+        let factor = spec.p_between_per_weight;
+        hierarchical(&backbone, spec.size, spec.p_within, factor, seed)
+            .map_err(|error| self.problem(key, format!("cannot be generated: {error}")))
+    }
+
+    fn grouped(&self, network: Network) -> Result<Network> {
+        let groups = match &self.experiment.groups {
+            None => return Ok(network),
+            Some(GroupsSpec::Ranges(ranges)) => {
+                let group = |(name, bounds): (&String, &[usize; 2])| {
+                    let key = format!("groups.ranges.{name}");
+                    let nodes = range(*bounds).map_err(|why| self.problem(&key, why))?;
+                    Ok(Group { name: name.clone(), nodes: nodes.collect() })
+                };
+                ranges.iter().map(group).collect::<Result<_>>()?
+            }
+            Some(GroupsSpec::File { path }) => self.groups_of_file(path, network.n_nodes())?,
+        };
+        network
+            .with_groups(groups)
+            .map_err(|error| self.problem("groups", format!("do not fit the network: {error}")))
+    }
+
+    fn groups_of_file(&self, path: &Path, n_nodes: usize) -> Result<Vec<Group>> {
+        let (path, source) = self.open("groups.file.path", path, None)?;
+        let text = std::io::read_to_string(source).map_err(|error| {
+            self.problem("groups.file.path", format!("names {}: {error}", path.display()))
+        })?;
+        let names: Vec<&str> = text.lines().map(str::trim).collect();
+        if names.len() != n_nodes || names.contains(&"") {
+            let message = format!(
+                "names {}, which has {} lines with a name; expected one for each of the {n_nodes} \
+                 nodes",
+                path.display(),
+                names.iter().filter(|name| !name.is_empty()).count()
+            );
+            return Err(self.problem("groups.file.path", message));
+        }
+        let mut groups = indexmap::IndexMap::<&str, Vec<usize>>::new();
+        for (node, name) in names.into_iter().enumerate() {
+            groups.entry(name).or_default().push(node);
+        }
+        Ok(groups.into_iter().map(|(name, nodes)| Group { name: name.into(), nodes }).collect())
+    }
+}
+
+/// First and last, counted from 1, as a range counted from 0.
+fn range([first, last]: [usize; 2]) -> std::result::Result<Range<usize>, String> {
+    if first == 0 || last < first {
+        return Err(format!("is [{first}, {last}]; expected first and last, counted from 1"));
+    }
+    Ok(first - 1..last)
+}
+
+fn step(spec: &StepSpec) -> std::result::Result<Step, String> {
+    Ok(match spec {
+        StepSpec::Nodes(ranges) => {
+            let ranges: std::result::Result<_, String> = ranges.iter().map(|r| range(*r)).collect();
+            Step::Select(Selection::Ranges(ranges?))
+        }
+        StepSpec::Labels(labels) => {
+            Step::Select(Selection::Labels(labels.iter().map(|name| name.0.clone()).collect()))
+        }
+        StepSpec::DropSelfLoops => Step::DropSelfLoops,
+        StepSpec::Symmetrise(rule) => Step::Symmetrise(match rule {
+            SymmetriseSpec::Union => Symmetrise::Union,
+            SymmetriseSpec::Mean => Symmetrise::Mean,
+            SymmetriseSpec::Max => Symmetrise::Max,
+        }),
+        StepSpec::Threshold(threshold) => Step::Threshold(*threshold),
+        StepSpec::Binarise => Step::Binarise,
+        StepSpec::DropIsolated => Step::DropIsolated,
+        StepSpec::LargestComponent => Step::LargestComponent,
+    })
+}

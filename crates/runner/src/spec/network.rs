@@ -1,0 +1,155 @@
+//! `[network.…]`, `prepare`, `[groups.…]` and `[regions]`: where the network comes from, what is made
+//! of it before it is used, and how its nodes belong together.
+
+use std::path::PathBuf;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+
+use super::Name;
+
+/// Where the network comes from.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum NetworkSpec {
+    /// A file.
+    File(FileSpec),
+    /// Random communities.
+    Communities(CommunitiesSpec),
+    /// Random communities in place of the nodes of a small network.
+    Hierarchical(HierarchicalSpec),
+}
+
+/// `[network.file]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileSpec {
+    /// Relative to the experiment file.
+    pub path: PathBuf,
+    #[serde(default)]
+    pub format: Format,
+    /// Which matrix of a file that holds several.
+    pub variable: Option<String>,
+    /// First and last row (and column) to take of a matrix, counted from 1.
+    pub block: Option<[usize; 2]>,
+    /// Which nodes the rows of a matrix are.
+    #[serde(default)]
+    pub rows: RowsSpec,
+    /// The command that brings the file where it may not be shipped: without the file the experiment
+    /// is left out, with a notice, instead of refused.
+    pub fetched_by: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Format {
+    /// A link a line: two labels and, if it is not 1, a weight.
+    #[default]
+    EdgeList,
+    /// Matrix Market, coordinate or array.
+    MatrixMarket,
+    /// A full matrix as text: blanks, tabs, commas or semicolons between numbers.
+    Dense,
+    /// A NumPy array, `.npy`.
+    Npy,
+    /// An archive of NumPy arrays or of one SciPy sparse matrix, `.npz`.
+    Npz,
+    /// A MATLAB file of level 5, `.mat`.
+    Matlab,
+    /// A connectivity archive of The Virtual Brain, `.zip`.
+    Tvb,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RowsSpec {
+    /// Row i, column j: the strength with which j drives i.
+    #[default]
+    Driven,
+    /// Row i, column j: the strength with which i drives j.
+    Driving,
+}
+
+/// `[network.communities]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CommunitiesSpec {
+    /// Number of nodes in each community; the groups are called C1, C2, …
+    pub sizes: Vec<usize>,
+    /// Probability of a link within a community, and between two.
+    pub p_within: Option<f64>,
+    pub p_between: Option<f64>,
+    /// In place of both: the probability for each pair of communities, a symmetric matrix.
+    pub probability: Option<Vec<Vec<f64>>>,
+    /// Seed of the links; the experiment's by default.
+    pub seed: Option<u64>,
+}
+
+/// `[network.hierarchical]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HierarchicalSpec {
+    /// Edge list of the small network, relative to the experiment file.
+    pub path: PathBuf,
+    /// Number of nodes in each community.
+    pub size: usize,
+    /// Probability of a link within a community.
+    pub p_within: f64,
+    /// Probability of a link between two communities, for each unit of weight of the link between
+    /// the nodes in whose place they stand.
+    pub p_between_per_weight: f64,
+    /// Seed of the links; the experiment's by default.
+    pub seed: Option<u64>,
+}
+
+/// One step of `prepare`, applied in the order written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum StepSpec {
+    /// Keeps ranges of nodes, first and last counted from 1.
+    Nodes(Vec<[usize; 2]>),
+    /// Keeps nodes by their labels.
+    Labels(Vec<Name>),
+    DropSelfLoops,
+    Symmetrise(SymmetriseSpec),
+    /// Drops links of less weight.
+    Threshold(f64),
+    Binarise,
+    DropIsolated,
+    LargestComponent,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SymmetriseSpec {
+    /// A link of weight 1 where there is one in either direction.
+    Union,
+    Mean,
+    Max,
+}
+
+/// `[groups.…]`: groups of nodes, in place of those that the network brings with it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum GroupsSpec {
+    /// Name = [first, last], nodes counted from 1 after preparation.
+    Ranges(IndexMap<String, [usize; 2]>),
+    /// A text file with the name of each node's group, a line a node.
+    File {
+        /// Relative to the experiment file.
+        path: PathBuf,
+    },
+}
+
+/// `[regions]`: the groups as regions under two thresholds each for prediction and simulation.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RegionsSpec {
+    /// A region is predicted to synchronise where its mean δe is below this.
+    pub distance_within: f64,
+    /// Two such regions are predicted to be one cluster where the mean δe between them is below this.
+    pub distance_between: f64,
+    /// The same for δx in the simulation, in the units of the component.
+    pub error_within: f64,
+    pub error_between: f64,
+}
