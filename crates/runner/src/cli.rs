@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand};
 
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
+use crate::output::say;
 use crate::plan;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
@@ -94,7 +95,7 @@ pub fn run(cli: Cli) -> Result<bool> {
         }
         Command::Check { files, quick } => {
             for file in &files {
-                print!("{}", check::describe(&plan::plan(file, quick)?));
+                say!("{}", check::describe(&plan::plan(file, quick)?).trim_end());
             }
             Ok(true)
         }
@@ -135,17 +136,17 @@ fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> 
         }
     }
     let with_claims = judged.iter().filter(|(_, claims)| !claims.is_empty());
-    println!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
+    say!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
     let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
     if let Some(table) = table::agreement(rows) {
-        println!("{table}\n");
+        say!("{table}\n");
     }
     let all = || judged.iter().flat_map(|(_, claims)| claims);
     for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
-        println!("{}: {}", claim.name.replace('_', " "), claim.reason);
+        say!("{}: {}", claim.name.replace('_', " "), claim.reason);
     }
     let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
-    println!(
+    say!(
         "{} claims hold, {} differ as known, {} differ; {}",
         count(Verdict::Holds),
         count(Verdict::DiffersAsKnown),
@@ -153,7 +154,7 @@ fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> 
         seconds(started.elapsed())
     );
     for problem in &left_out {
-        println!("left out: {problem}");
+        say!("left out: {problem}");
     }
     let ids: Vec<String> = plans.iter().map(|plan| plan.id.clone()).collect();
     let golden = compare_all(&ids, folders)?;
@@ -164,13 +165,13 @@ fn compare_all(ids: &[String], folders: &Folders) -> Result<bool> {
     let mut all_hold = true;
     for id in ids {
         let Some(comparison) = compare::compare(id, &folders.results, &folders.golden)? else {
-            println!("{id}: no golden output to compare with");
+            say!("{id}: no golden output to compare with");
             continue;
         };
         let verdict = if comparison.holds() { "holds" } else { "differs" };
-        println!("{id}: the comparison with the golden output {verdict}");
+        say!("{id}: the comparison with the golden output {verdict}");
         for line in comparison.lines() {
-            println!("    {line}");
+            say!("    {line}");
         }
         all_hold &= comparison.holds();
     }
@@ -213,7 +214,7 @@ fn list(experiments: &Path, folders: &Folders) -> Result<bool> {
         };
         let id = file.file_stem().unwrap_or_default().to_string_lossy();
         let done = folders.results.join(id.as_ref()).join("summary.json").exists();
-        println!("{:<40} {}{title}", file.display(), if done { "[results] " } else { "" });
+        say!("{:<40} {}{title}", file.display(), if done { "[results] " } else { "" });
     }
     Ok(true)
 }

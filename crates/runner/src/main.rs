@@ -14,6 +14,7 @@ mod drawing;
 mod figures;
 mod findings;
 mod load;
+mod output;
 mod plan;
 mod problem;
 mod progress;

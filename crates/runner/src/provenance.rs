@@ -5,6 +5,8 @@ use std::time::Duration;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use graph::Network;
+
 use crate::plan::Plan;
 
 /// The `provenance` of a summary. The only part of it that may differ between two equal runs.
@@ -36,17 +38,32 @@ impl Provenance {
     }
 }
 
+/// SHA-256 of the links and weights of a network, in node order.
+pub fn links_hash(network: &Network) -> String {
+    let mut hash = Sha256::new();
+    add_links(&mut hash, network);
+    text(hash)
+}
+
 fn plan_hash(plan: &Plan) -> String {
     let mut hash = Sha256::new();
     hash.update(plan.written.to_string());
     hash.update(plan.shortened.to_le_bytes());
-    for (row, links) in plan.network.adjacency().outer_iterator().enumerate() {
+    add_links(&mut hash, &plan.network);
+    text(hash)
+}
+
+fn add_links(hash: &mut Sha256, network: &Network) {
+    for (row, links) in network.adjacency().outer_iterator().enumerate() {
         for (col, weight) in links.iter() {
             hash.update((row as u64).to_le_bytes());
             hash.update((col as u64).to_le_bytes());
             hash.update(weight.to_le_bytes());
         }
     }
+}
+
+fn text(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -13,7 +13,7 @@ use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{Onset, OverSeeds, completed};
 
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
@@ -39,6 +39,8 @@ pub struct Summary {
 
 #[derive(Serialize)]
 pub struct NetworkRecord {
+    /// SHA-256 of links and weights, so that a changed digit is seen as such.
+    pub links_hash: String,
     /// What each step of preparation removed and left.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub preparation: Vec<StepRecord>,
@@ -166,6 +168,7 @@ pub fn summarise(plan: &Plan, findings: &Findings, claims: Vec<Claim>, took: Dur
         source: plan.experiment.source.clone(),
         shortened: plan.shortened,
         network: NetworkRecord {
+            links_hash: links_hash(network),
             preparation: plan.preparation.iter().map(step_record).collect(),
             groups: network.groups().len(),
             nodes: network.n_nodes(),
