@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use graph::Network;
 use graph::prepare::Report;
 
-use super::Checker;
+use super::{ALL_PAIRS, Checker};
 use crate::problem::{Problem, Result};
-use crate::spec::{Layout, Name};
+use crate::spec::{FigureKind, Layout, Name};
 
 impl Checker<'_> {
     /// The network, with what its preparation did, if it can be coupled at all.
@@ -89,9 +89,31 @@ impl Checker<'_> {
         self.problem(key, format!("has mode {mode}, but the modes computed are 1 to {most}"))
     }
 
+    /// Matrices and regions need what they show.
+    fn figure_kind(&self, network: &Network) -> Result<()> {
+        let kind = self.experiment.figure.kind;
+        let (regions, n_nodes) = (self.experiment.regions.is_some(), network.n_nodes());
+        if regions && network.groups().is_empty() {
+            return Err(self.problem("regions", "needs groups, and the network has none"));
+        }
+        let missing = match kind {
+            FigureKind::Sweep => None,
+            _ if self.experiment.sweep.is_none() => Some("a [sweep]"),
+            _ if n_nodes > ALL_PAIRS => Some("a network of up to 2000 nodes, whose pairs are kept"),
+            FigureKind::Regions if !regions => Some("the thresholds of [regions]"),
+            FigureKind::Regions if network.positions().is_none() => Some("positions of the nodes"),
+            _ => None,
+        };
+        match missing {
+            None => Ok(()),
+            Some(what) => Err(self.problem("figure.kind", format!("needs {what}"))),
+        }
+    }
+
     /// What the figure is told of nodes, modes and couplings must exist.
     pub(super) fn figure(&self, network: &Network) -> Result<()> {
         let (figure, n_nodes) = (&self.experiment.figure, network.n_nodes());
+        self.figure_kind(network)?;
         if let Layout::At(positions) = &figure.layout {
             if positions.len() != n_nodes {
                 let message = format!("has {} positions for {n_nodes} nodes", positions.len());

@@ -61,6 +61,16 @@ impl Checker<'_> {
             Format::MatrixMarket => {
                 formats::matrix_market::read(source, &layout).map_err(|e| failed(&e))
             }
+            Format::Graphml => {
+                let spec = spec.attributes.clone();
+                let attributes = formats::graphml::Attributes {
+                    weight: spec.weight,
+                    label: spec.label,
+                    group: spec.group,
+                    position: spec.position,
+                };
+                formats::graphml::read(source, &attributes).map_err(|e| failed(&e))
+            }
             Format::Dense => formats::dense::read(source, &layout).map_err(|e| failed(&e)),
             Format::Npy => formats::numpy::read_npy(source, &layout).map_err(|e| failed(&e)),
             Format::Npz => {

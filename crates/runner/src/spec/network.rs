@@ -30,6 +30,9 @@ pub struct FileSpec {
     pub format: Format,
     /// Which matrix of a file that holds several.
     pub variable: Option<String>,
+    /// Which attributes of a GraphML file are what.
+    #[serde(default)]
+    pub attributes: AttributesSpec,
     /// First and last row (and column) to take of a matrix, counted from 1.
     pub block: Option<[usize; 2]>,
     /// Which nodes the rows of a matrix are.
@@ -40,6 +43,20 @@ pub struct FileSpec {
     pub fetched_by: Option<String>,
 }
 
+/// Names of GraphML attributes; those left out are not read.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AttributesSpec {
+    /// Number of an edge that is its weight; every edge has weight 1 without it.
+    pub weight: Option<String>,
+    /// Attribute of a node that is its label; its `id` without it.
+    pub label: Option<String>,
+    /// Attribute of a node that names its group.
+    pub group: Option<String>,
+    /// Two or three numbers of a node that are its position.
+    pub position: Vec<String>,
+}
+
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Format {
@@ -48,6 +65,8 @@ pub enum Format {
     EdgeList,
     /// Matrix Market, coordinate or array.
     MatrixMarket,
+    /// GraphML; `attributes` names what is read beside nodes and links.
+    Graphml,
     /// A full matrix as text: blanks, tabs, commas or semicolons between numbers.
     Dense,
     /// A NumPy array, `.npy`.
