@@ -18,13 +18,39 @@ const BANDS: f64 = 5.0;
 const EIGENVALUES: f64 = 1e-9;
 /// Most failures shown of one kind.
 const SHOWN: usize = 6;
+/// Up to this many differences of a kind that are no failures are named one by one.
+const NAMED: usize = 2;
 
 /// How a summary differs from its golden output.
 #[derive(Default)]
 pub struct Comparison {
     failures: BTreeMap<String, Vec<String>>,
-    /// Differences inside their bands: how many, and the largest share of its band.
-    within: BTreeMap<String, (usize, f64)>,
+    /// Differences that are no failures, by kind of quantity.
+    notes: BTreeMap<String, Notes>,
+}
+
+/// Differences of one kind that are no failures.
+#[derive(Default)]
+struct Notes {
+    count: usize,
+    /// The largest share of its band; none where the kind is not judged.
+    largest_share: Option<f64>,
+    /// What the first few of them are.
+    first: Vec<String>,
+}
+
+impl Notes {
+    /// A line each where they are few, one for all otherwise.
+    fn lines(&self, kind: &str) -> Vec<String> {
+        let judged = match self.largest_share {
+            None => "not judged".to_owned(),
+            Some(share) => format!("within the band, by at most {share:.2} of it"),
+        };
+        if self.count <= self.first.len() {
+            return self.first.iter().map(|line| format!("{line}: {judged}")).collect();
+        }
+        vec![format!("{kind}: {} values differ; {judged}", self.count)]
+    }
 }
 
 impl Comparison {
@@ -41,15 +67,7 @@ impl Comparison {
                 lines.push(format!("… and {} more of {kind}", failures.len() - SHOWN));
             }
         }
-        for (kind, (count, share)) in &self.within {
-            let values = if *count == 1 { "value differs" } else { "values differ" };
-            lines.push(match share {
-                0.0 => format!("{kind}: {count} {values}; not judged"),
-                share => {
-                    format!("{kind}: {count} {values} within the band, by at most {share:.2} of it")
-                }
-            });
-        }
+        lines.extend(self.notes.iter().flat_map(|(kind, notes)| notes.lines(kind)));
         lines
     }
 }
@@ -141,23 +159,16 @@ impl Walk<'_> {
             (Some(a), Some(b)) => (a - b).abs(),
             _ => f64::INFINITY,
         };
+        let moved =
+            || format!("{path}: expected {}, obtained {}", short(expected), short(obtained));
         match rule {
             Rule::Ignore => {}
-            Rule::Note => self.note(kind, 0.0),
-            Rule::Band(allowed) if distance <= allowed => self.note(kind, distance / allowed),
-            Rule::Band(allowed) => {
-                let line = format!(
-                    "{path}: expected {expected}, obtained {obtained}, allowed ± {allowed:.2e}"
-                );
-                self.fail(kind, line);
+            Rule::Note => self.note(kind, None, moved()),
+            Rule::Band(allowed) if distance <= allowed => {
+                self.note(kind, Some(distance / allowed), moved());
             }
-            Rule::Exact => {
-                let (expected, obtained) = (short(expected), short(obtained));
-                self.fail(
-                    kind,
-                    format!("{path}: expected {expected}, obtained {obtained}, allowed none"),
-                );
-            }
+            Rule::Band(allowed) => self.fail(kind, format!("{}, allowed ± {allowed:.2e}", moved())),
+            Rule::Exact => self.fail(kind, format!("{}, allowed none", moved())),
         }
     }
 
@@ -241,10 +252,15 @@ impl Walk<'_> {
         self.comparison.failures.entry(kind.to_owned()).or_default().push(line);
     }
 
-    fn note(&mut self, kind: &str, share: f64) {
-        let note = self.comparison.within.entry(kind.to_owned()).or_default();
-        note.0 += 1;
-        note.1 = note.1.max(share);
+    fn note(&mut self, kind: &str, share: Option<f64>, line: String) {
+        let notes = self.comparison.notes.entry(kind.to_owned()).or_default();
+        notes.count += 1;
+        if let Some(share) = share {
+            notes.largest_share = Some(notes.largest_share.unwrap_or(0.0).max(share));
+        }
+        if notes.first.len() < NAMED {
+            notes.first.push(line);
+        }
     }
 }
 
@@ -308,7 +324,9 @@ mod tests {
         assert!(shift(0.9 * band).holds());
         assert!(!shift(1.1 * band).holds());
         let lines = shift(0.5 * band).lines();
-        assert_eq!(lines, ["msf.sigma_c: 1 value differs within the band, by at most 0.50 of it"]);
+        let [line] = &lines[..] else { panic!("{lines:?}") };
+        assert!(line.starts_with("msf.sigma_c: expected 8.17, obtained 8.18"), "{line}");
+        assert!(line.ends_with("within the band, by at most 0.50 of it"), "{line}");
     }
 
     #[test]
