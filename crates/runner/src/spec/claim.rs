@@ -1,0 +1,100 @@
+//! `[claims.NAME]`: what the source says, and how near ours must come.
+
+use serde::Deserialize;
+
+use super::Name;
+
+/// One entry of `[claims]`: a value the source states, and how near ours must come.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClaimSpec {
+    /// Which quantity.
+    pub of: Quantity,
+    /// Which instance of it.
+    #[serde(default, rename = "where")]
+    pub at: Where,
+    /// The source's value; exactly one of `equals`, `at_most` and `at_least` is given.
+    pub equals: Option<toml::Value>,
+    pub at_most: Option<f64>,
+    pub at_least: Option<f64>,
+    pub abs_tol: Option<f64>,
+    pub rel_tol: Option<f64>,
+    /// Where the source says it; the experiment's own source by default.
+    #[serde(default)]
+    pub source: String,
+    /// Why the tolerance is what it is.
+    #[serde(default)]
+    pub reason: String,
+    /// Why a difference is expected: the verdict is then `differs as known`.
+    pub known_difference: Option<String>,
+}
+
+/// Quantities that claims speak of.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum Quantity {
+    /// All λ_k, descending.
+    #[serde(rename = "eigenvalues")]
+    Eigenvalues,
+    /// Distance of given vectors from the eigenspace of `where.modes`.
+    #[serde(rename = "eigenvectors")]
+    Eigenvectors,
+    /// Λ(0).
+    #[serde(rename = "msf.lyapunov_isolated")]
+    LyapunovIsolated,
+    /// σ_c.
+    #[serde(rename = "msf.sigma_c")]
+    SigmaC,
+    /// ε_k of `where.modes`.
+    #[serde(rename = "critical_couplings")]
+    CriticalCouplings,
+    /// Predicted clusters at `where.epsilon`.
+    #[serde(rename = "cascade.clusters")]
+    CascadeClusters,
+    /// Positions of `where.clusters` in the order in which they are predicted to be lost.
+    #[serde(rename = "cascade.order_of_loss")]
+    CascadeOrder,
+    /// Simulated clusters at `where.epsilon`.
+    #[serde(rename = "simulated.clusters")]
+    SimulatedClusters,
+    /// ε from which on all of `where.clusters` stay synchronised.
+    #[serde(rename = "simulated.onset")]
+    SimulatedOnset,
+    /// Positions of `where.clusters` in the order in which they are lost as ε falls.
+    #[serde(rename = "simulated.order_of_loss")]
+    SimulatedOrder,
+    /// Largest δx^c_m of `where.clusters` at `where.epsilon`.
+    #[serde(rename = "simulated.error")]
+    SimulatedError,
+    /// Number of nodes of the network.
+    #[serde(rename = "network.nodes")]
+    Nodes,
+    /// Number of links of the network.
+    #[serde(rename = "network.links")]
+    Links,
+    /// Number of groups of the network.
+    #[serde(rename = "network.groups")]
+    Groups,
+    /// Pearson's correlation of δx_ij with δe_ij over all pairs at `where.epsilon`.
+    #[serde(rename = "agreement.pearson")]
+    Pearson,
+    /// Spearman's rank correlation of δx_ij with δe_ij over all pairs at `where.epsilon`.
+    #[serde(rename = "agreement.spearman")]
+    Spearman,
+    /// Adjusted Rand index of predicted and simulated clusters at `where.epsilon`.
+    #[serde(rename = "agreement.rand_index")]
+    RandIndex,
+    /// Fraction of regions of the same verdict in prediction and simulation at `where.epsilon`.
+    #[serde(rename = "agreement.regions")]
+    RegionVerdicts,
+}
+
+/// Which instance of a quantity a claim is about.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Where {
+    pub epsilon: Option<f64>,
+    /// Modes k, counted from 1 as in λ_k.
+    pub modes: Option<Vec<usize>>,
+    /// Clusters of node labels.
+    pub clusters: Option<Vec<Vec<Name>>>,
+}

@@ -1,0 +1,211 @@
+//! Values that can be written in more than one way: node labels, grids, layouts, words or numbers.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+/// `"circle"`, `"force"`, `"grouped"`, or a list of positions `[x, y]`, one for each node in order.
+#[derive(Clone, Debug)]
+pub enum Layout {
+    /// On a circle in node order.
+    Circle,
+    /// So that distances on paper are those along the links.
+    Force,
+    /// Every cluster on a circle of its own.
+    Grouped,
+    /// Where the file says.
+    At(Vec<[f64; 2]>),
+}
+
+/// A node label, written as a text or as a whole number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name(pub String);
+
+/// A grid of values: `{ from, to, points }`, evenly spaced with both ends, or a list.
+#[derive(Clone, Debug)]
+pub enum Grid {
+    Even(EvenGrid),
+    List(Vec<f64>),
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EvenGrid {
+    pub from: f64,
+    pub to: f64,
+    pub points: u32,
+}
+
+impl Grid {
+    /// The values in their order.
+    pub fn values(&self) -> Vec<f64> {
+        match self {
+            Self::List(values) => values.clone(),
+            Self::Even(EvenGrid { from, to, points: 1 }) if from == to => vec![*from],
+            Self::Even(EvenGrid { from, to, points }) => {
+                // Rounded to 12 digits, so that 0.1 … 1.3 reads 0.3 and not 0.30000000000000004.
+                let last = f64::from(points.saturating_sub(1));
+                let value = |k: u32| from + (to - from) * f64::from(k) / last;
+                let rounded = |x: f64| (x * 1e12).round() / 1e12;
+                let shorten = |x: f64| if rounded(x).is_finite() { rounded(x) } else { x };
+                (0..*points).map(value).map(shorten).collect()
+            }
+        }
+    }
+}
+
+/// A word that stands for itself, or a number.
+#[derive(Clone, Copy, Debug)]
+pub enum WordOr<W, N> {
+    Word(W),
+    Number(N),
+}
+
+/// A word that a key accepts in place of a number.
+pub trait Word: Default {
+    const WORD: &'static str;
+}
+
+/// `"all"`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct All;
+
+impl Word for All {
+    const WORD: &'static str = "all";
+}
+
+/// `"exact"`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+impl Word for Exact {
+    const WORD: &'static str = "exact";
+}
+
+impl<W: Word, N> Default for WordOr<W, N> {
+    fn default() -> Self {
+        Self::Word(W::default())
+    }
+}
+
+impl<'de> Deserialize<'de> for Name {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Label;
+        impl Visitor<'_> for Label {
+            type Value = Name;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a node label: a text or a whole number")
+            }
+            fn visit_str<E: Error>(self, label: &str) -> Result<Name, E> {
+                Ok(Name(label.to_owned()))
+            }
+            fn visit_i64<E: Error>(self, label: i64) -> Result<Name, E> {
+                Ok(Name(label.to_string()))
+            }
+        }
+        deserializer.deserialize_any(Label)
+    }
+}
+
+impl<'de> Deserialize<'de> for Grid {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Values;
+        impl<'de> Visitor<'de> for Values {
+            type Value = Grid;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("{ from = …, to = …, points = … } or a list of numbers")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Grid, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(list)).map(Grid::List)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Grid, A::Error> {
+                EvenGrid::deserialize(MapAccessDeserializer::new(map)).map(Grid::Even)
+            }
+        }
+        deserializer.deserialize_any(Values)
+    }
+}
+
+impl<'de> Deserialize<'de> for Layout {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NameOrPositions;
+        impl<'de> Visitor<'de> for NameOrPositions {
+            type Value = Layout;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"circle\", \"force\", \"grouped\" or a list of positions [x, y]")
+            }
+            fn visit_str<E: Error>(self, name: &str) -> Result<Layout, E> {
+                match name {
+                    "circle" => Ok(Layout::Circle),
+                    "force" => Ok(Layout::Force),
+                    "grouped" => Ok(Layout::Grouped),
+                    _ => Err(E::unknown_variant(name, &["circle", "force", "grouped"])),
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Layout, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(list)).map(Layout::At)
+            }
+        }
+        deserializer.deserialize_any(NameOrPositions)
+    }
+}
+
+impl<'de, W: Word, N: Deserialize<'de> + FromNumber> Deserialize<'de> for WordOr<W, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either<W, N>(PhantomData<(W, N)>);
+        impl<W: Word, N: FromNumber> Visitor<'_> for Either<W, N> {
+            type Value = WordOr<W, N>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "\"{}\" or {}", W::WORD, N::KIND)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                if word == W::WORD {
+                    Ok(WordOr::Word(W::default()))
+                } else {
+                    Err(E::invalid_value(serde::de::Unexpected::Str(word), &self))
+                }
+            }
+            fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
+                N::from_whole(number)
+                    .map(WordOr::Number)
+                    .ok_or_else(|| E::invalid_value(serde::de::Unexpected::Signed(number), &self))
+            }
+            fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
+                N::from_real(number)
+                    .map(WordOr::Number)
+                    .ok_or_else(|| E::invalid_type(serde::de::Unexpected::Float(number), &self))
+            }
+        }
+        deserializer.deserialize_any(Either(PhantomData))
+    }
+}
+
+/// Numbers that may stand in place of a [`Word`].
+pub trait FromNumber: Sized {
+    const KIND: &'static str;
+    fn from_whole(number: i64) -> Option<Self>;
+    fn from_real(number: f64) -> Option<Self>;
+}
+
+impl FromNumber for f64 {
+    const KIND: &'static str = "a number";
+    fn from_whole(number: i64) -> Option<Self> {
+        Some(number as f64)
+    }
+    fn from_real(number: f64) -> Option<Self> {
+        Some(number)
+    }
+}
+
+impl FromNumber for u64 {
+    const KIND: &'static str = "a whole number";
+    fn from_whole(number: i64) -> Option<Self> {
+        Self::try_from(number).ok()
+    }
+    fn from_real(_: f64) -> Option<Self> {
+        None
+    }
+}
