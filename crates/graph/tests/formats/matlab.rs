@@ -34,6 +34,16 @@ impl File {
         self.element(kind, &values.iter().flat_map(|&v| self.word(v)).collect::<Vec<_>>())
     }
 
+    /// Adds the matrix `[0 2; 1 0]` with dimensions and name stored as those types.
+    fn unusual(mut self, dimensions: u32, name: u32) -> Self {
+        let mut content = self.words(6, &[6, 0]);
+        content.extend(self.words(dimensions, &[2, 2]));
+        content.extend(self.element(name, "Ä".as_bytes()));
+        content.extend(self.doubles(&[0.0, 1.0, 2.0, 0.0]));
+        self.bytes.extend(self.element(14, &content));
+        self
+    }
+
     /// Adds a variable: class, dimensions, name, and the elements that follow.
     fn variable(mut self, class: u32, dimensions: &[u32], name: &str, rest: &[Vec<u8>]) -> Self {
         let mut content = self.words(6, &[class, 0]);
@@ -133,6 +143,22 @@ fn files_of_either_byte_order_are_read() {
         let full = read(&file.bytes[..], Some("F"), &whole()).unwrap();
         assert_eq!(dense(&full), [[0.0, 3.0], [70_000.0, 0.0]]);
     }
+}
+
+#[test]
+fn dimensions_without_sign_and_names_in_utf_8_are_read() {
+    let file = File::new(false).unusual(6, 16);
+    let network = read(&file.bytes[..], Some("Ä"), &whole()).unwrap();
+    assert_eq!(dense(&network), [[0.0, 2.0], [1.0, 0.0]]);
+    let file = File::new(false).unusual(9, 16);
+    let message = "the variable at byte 128: byte 152: expected the dimensions of a variable, found \
+                   an element of type 9 with 8 bytes";
+    check_refused(&file.bytes, None, message);
+    let mut cut = File::new(false).unusual(5, 1);
+    cut.bytes[156] = 7;
+    let message = "the variable at byte 128: byte 152: expected the dimensions of a variable, found \
+                   an element of type 5 with 7 bytes";
+    check_refused(&cut.bytes, None, message);
 }
 
 #[test]

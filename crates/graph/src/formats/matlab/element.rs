@@ -16,9 +16,10 @@ pub(super) const MATRIX: u32 = 14;
 /// Element type of a compressed variable (miCOMPRESSED).
 pub(super) const COMPRESSED: u32 = 15;
 
-const INT8: u32 = 1;
-const INT32: u32 = 5;
-const UINT32: u32 = 6;
+// Some programs write dimensions without sign and names as UTF-8.
+const FLAGS: &[u32] = &[6];
+const DIMENSIONS: &[u32] = &[5, 6];
+const NAME: &[u32] = &[1, 2, 16];
 
 /// MATLAB allows names of 63 characters.
 const MAX_NAME_BYTES: u64 = 256;
@@ -124,16 +125,16 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// The data of an element of that type, which must be of `limit` bytes at most.
+    /// The data of an element of those types, which must be of `limit` bytes at most.
     fn small_data(
         &mut self,
-        kind: u32,
+        kinds: &[u32],
         limit: u64,
         expected: &'static str,
     ) -> Result<Vec<u8>, MatlabError> {
         let offset = self.offset;
         let tag = self.tag(expected)?;
-        if tag.kind != kind || tag.length > limit {
+        if !kinds.contains(&tag.kind) || tag.length > limit {
             let (kind, length) = (tag.kind, tag.length);
             return Err(MatlabError::UnexpectedElement { offset, expected, kind, length });
         }
@@ -149,11 +150,16 @@ impl<'a> Bytes<'a> {
 
     fn words(
         &mut self,
-        kind: u32,
+        kinds: &[u32],
         limit: u64,
         expected: &'static str,
     ) -> Result<Vec<u32>, MatlabError> {
-        let data = self.small_data(kind, 4 * limit, expected)?;
+        let offset = self.offset;
+        let data = self.small_data(kinds, 4 * limit, expected)?;
+        if data.len() % 4 != 0 {
+            let (kind, length) = (kinds[0], data.len() as u64);
+            return Err(MatlabError::UnexpectedElement { offset, expected, kind, length });
+        }
         Ok(data.chunks_exact(4).map(|w| self.word([w[0], w[1], w[2], w[3]])).collect())
     }
 
@@ -243,11 +249,16 @@ pub(super) struct Variable {
 impl Variable {
     pub(super) fn read(bytes: &mut Bytes<'_>) -> Result<Self, MatlabError> {
         let offset = bytes.offset();
-        let flags = bytes.words(UINT32, 2, "the flags of a variable")?;
+        let flags = bytes.words(FLAGS, 2, "the flags of a variable")?;
         // The second word is the room of a sparse matrix, which its own elements tell again.
         let &[flags, _] = flags.as_slice() else {
             let (length, expected) = (4 * flags.len() as u64, "the flags of a variable, 8 bytes");
-            return Err(MatlabError::UnexpectedElement { offset, expected, kind: UINT32, length });
+            return Err(MatlabError::UnexpectedElement {
+                offset,
+                expected,
+                kind: FLAGS[0],
+                length,
+            });
         };
         let class = class(flags & 0xff);
         // An object of a class has other elements than its dimensions from here on.
@@ -255,8 +266,8 @@ impl Variable {
             let (name, dimensions, is_complex) = (String::new(), Vec::new(), false);
             return Ok(Self { name, class, is_complex, dimensions });
         }
-        let dimensions = bytes.words(INT32, MAX_DIMENSIONS, "the dimensions of a variable")?;
-        let name = bytes.small_data(INT8, MAX_NAME_BYTES, "the name of a variable")?;
+        let dimensions = bytes.words(DIMENSIONS, MAX_DIMENSIONS, "the dimensions of a variable")?;
+        let name = bytes.small_data(NAME, MAX_NAME_BYTES, "the name of a variable")?;
         let name = String::from_utf8_lossy(&name).into_owned();
         Ok(Self { name, class, is_complex: flags & 0x800 != 0, dimensions })
     }
