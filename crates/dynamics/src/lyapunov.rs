@@ -124,7 +124,7 @@ impl Plan {
 
     /// Runs the dual system through the transient and all blocks, handing the tangents of every
     /// interval to `renormalise`, which gives the logarithms of their growth; returns block means of
-    /// the exponents, [block][lane].
+    /// the exponents, `[block][lane]`.
     fn block_means<const D: usize, const L: usize>(
         &self,
         flow: impl Fn([Dual<Lanes<L>>; D]) -> [Dual<Lanes<L>>; D],

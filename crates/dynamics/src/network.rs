@@ -1,6 +1,6 @@
 //! Simulation of a network, `dx_i/dt = F(x_i) + ε Σ_j w_ij H(x_j)`: Fan, Wang & Wang (2023), Eq. (1).
 //!
-//! The state is laid out [component][node][lane]. Lanes are replicas (couplings, seeds) advanced
+//! The state is laid out `[component][node][lane]`. Lanes are replicas (couplings, seeds) advanced
 //! side by side, so that each w_ij multiplies a contiguous run of numbers. Every lane goes through
 //! the same operations in the same order whatever its neighbours are: results do not depend on the
 //! number of lanes, of threads, or on the machine.
@@ -250,7 +250,7 @@ impl<O: Oscillator<D>, const D: usize> NetworkFlow<'_, O, D> {
     }
 }
 
-/// Initial states laid out [component][node][lane].
+/// Initial states laid out `[component][node][lane]`.
 pub(crate) fn initial_lanes<O: Oscillator<D>, const D: usize, const L: usize>(
     n_nodes: usize,
     seeds: [u64; L],

@@ -106,7 +106,7 @@ impl<const L: usize> ErrorSums<L> {
         }
     }
 
-    /// Adds one sample of the network's state, [component][node].
+    /// Adds one sample of the network's state, `[component][node]`.
     #[inline(always)]
     pub(crate) fn sample<const D: usize>(&mut self, state: [&[Lanes<L>]; D]) {
         let x = state[self.component];

@@ -33,7 +33,7 @@ pub(crate) fn step<S: Scalar, const D: usize>(
     sum
 }
 
-/// The state of a network, [component][node], with what a step needs beside it.
+/// The state of a network, `[component][node]`, with what a step needs beside it.
 pub(crate) struct NetworkRk4<S, const D: usize> {
     state: [Vec<S>; D],
     stage: [Vec<S>; D],
