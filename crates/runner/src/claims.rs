@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use graph::Network;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::agreement::Agreement;
 use crate::findings::Findings;
 use crate::plan::{Plan, nodes_named};
 use crate::problem::{Problem, Result};
-use crate::spec::{ClaimSpec, Name, Quantity};
+use crate::spec::{ClaimSpec, Name, OneOrMany, Quantity};
 
 /// A judged claim.
 #[derive(Clone, Debug, Serialize)]
@@ -118,10 +118,7 @@ impl Judge<'_> {
                 all(&|x| x >= limit),
             ));
         }
-        let paper: Vec<f64> = match self.equals("a number or a list of numbers")? {
-            OneOrMany::One(number) => vec![number],
-            OneOrMany::Many(numbers) => numbers,
-        };
+        let paper = self.equals::<OneOrMany>("a number or a list of numbers")?.into_list();
         let (abs, rel) = (self.spec.abs_tol.unwrap_or(0.0), self.spec.rel_tol.unwrap_or(0.0));
         // A hair of slack: 4.2 ± 0.1 holds 4.1, whose difference is 0.10000000000000053.
         let near = |x: f64, expected: f64| {
@@ -216,12 +213,6 @@ impl Judge<'_> {
     fn eigenvectors(&self) -> Result<(Value, Value, String, bool)> {
         let printed: Vec<Vec<f64>> = self.equals("a list of vectors")?;
         let modes = self.spec.at.modes.clone().unwrap_or_default();
-        let n_nodes = self.plan.network.n_nodes();
-        if printed.len() != modes.len() || printed.iter().any(|v| v.len() != n_nodes) {
-            let message =
-                format!("needs a vector of {n_nodes} components for each of `where.modes`");
-            return Err(self.problem(&message));
-        }
         let spectrum = &self.findings.spectrum;
         let of_eigenspace = |eigenspace: &std::ops::Range<usize>| {
             let inside =
@@ -300,14 +291,6 @@ impl Judge<'_> {
         };
         clusters.iter().map(nodes).collect()
     }
-}
-
-/// `equals` of a claim about numbers.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum OneOrMany {
-    One(f64),
-    Many(Vec<f64>),
 }
 
 fn texts(clusters: &[Vec<Name>]) -> Vec<Vec<&str>> {

@@ -7,7 +7,7 @@ mod claim;
 mod network;
 mod values;
 
-pub use claim::{ClaimSpec, Quantity};
+pub use claim::{ClaimSpec, OneOrMany, Quantity};
 use dynamics::Model;
 use indexmap::IndexMap;
 pub use network::{

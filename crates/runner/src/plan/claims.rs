@@ -1,13 +1,12 @@
 //! Claims before anything is computed: each names an instance of its quantity that will exist, and
 //! states a value of the shape that the quantity has.
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use spectra::Modes;
 
 use super::{ALL_PAIRS, Checker, Plan};
 use crate::problem::{Result, plain};
-use crate::spec::{ClaimSpec, Name, Quantity};
+use crate::spec::{ClaimSpec, Name, OneOrMany, Quantity};
 
 /// Whether a quantity is singled out by a key of `where`.
 #[derive(Clone, Copy, PartialEq)]
@@ -26,14 +25,6 @@ enum Shape {
     Clusters,
     /// Positions of the clusters in an order.
     Order,
-}
-
-/// `equals` of a claim about numbers.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum OneOrMany {
-    One(f64),
-    Many(Vec<f64>),
 }
 
 impl Checker<'_> {
@@ -218,10 +209,8 @@ impl Claim<'_> {
     }
 
     fn numbers(&self, count: Option<usize>) -> Result<()> {
-        let numbers = match self.equals("a number or a list of numbers")? {
-            OneOrMany::One(number) => vec![number],
-            OneOrMany::Many(numbers) => numbers,
-        };
+        let numbers: OneOrMany = self.equals("a number or a list of numbers")?;
+        let numbers = numbers.into_list();
         if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
             return self.refuse(".equals", format!("contains {number}, but must be finite"));
         }

@@ -98,3 +98,21 @@ pub struct Where {
     /// Clusters of node labels.
     pub clusters: Option<Vec<Vec<Name>>>,
 }
+
+/// `equals` of a claim about numbers: one, or a list.
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
+impl OneOrMany {
+    /// The numbers as a list.
+    pub fn into_list(self) -> Vec<f64> {
+        match self {
+            Self::One(number) => vec![number],
+            Self::Many(numbers) => numbers,
+        }
+    }
+}
