@@ -17,7 +17,9 @@ use graph::{CouplingMatrix, Network, Normalization};
 pub use network::nodes_named;
 
 use crate::problem::{Problem, Result};
-use crate::spec::{Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr};
+use crate::spec::{
+    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr,
+};
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
@@ -58,7 +60,7 @@ pub struct Sweep {
     pub method: Method,
     pub schedule: Schedule,
     pub observables: Observables,
-    pub synchronised_below: f64,
+    pub synchronised_below: Bound,
     pub kick: f64,
 }
 
@@ -134,6 +136,7 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
         experiment: experiment.clone(),
         written,
     };
+    checker.regions(&plan.network)?;
     checker.figure(&plan.network)?;
     checker.claims(&plan)?;
     Ok(plan)
@@ -318,6 +321,7 @@ impl Checker<'_> {
         if clusters.is_empty() && reference.is_none() && network.n_nodes() > 1 {
             clusters.push((0..network.n_nodes()).collect());
         }
+        self.bound("sweep.synchronised_below", spec.synchronised_below, pairs)?;
         let first = self.experiment.seed;
         Ok(Sweep {
             epsilon,
@@ -337,7 +341,6 @@ impl Checker<'_> {
         self.not_negative("sweep.transient", spec.transient)?;
         self.positive("sweep.average", spec.average)?;
         self.positive("sweep.tolerance", spec.tolerance)?;
-        self.positive("sweep.synchronised_below", spec.synchronised_below)?;
         self.positive("sweep.stride", f64::from(spec.stride))?;
         self.positive("sweep.seeds", spec.seeds as f64)?;
         let schedule = Schedule {

@@ -104,6 +104,10 @@ fn four_digits(number: f64) -> String {
     if number.abs() < 1e-4 {
         return format!("{number:.1e}");
     }
+    // Counts are shown whole.
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        return format!("{number}");
+    }
     let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
@@ -125,5 +129,6 @@ mod tests {
         assert_eq!(readable(&json!([-0.0, -2.0, -14.034_567])), "0, -2, -14.03");
         assert_eq!(readable(&json!([["1", "2"], ["3", "4"]])), "{1,2} {3,4}");
         assert_eq!(readable(&json!([])), "none");
+        assert_eq!(readable(&json!(17865.0)), "17865");
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use indexmap::IndexMap;
 use serde::Deserialize;
 
-use super::Name;
+use super::{Bound, Name};
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize)]
@@ -165,10 +165,10 @@ pub enum GroupsSpec {
 #[serde(deny_unknown_fields)]
 pub struct RegionsSpec {
     /// A region is predicted to synchronise where its mean δe is below this.
-    pub distance_within: f64,
+    pub distance_within: Bound,
     /// Two such regions are predicted to be one cluster where the mean δe between them is below this.
-    pub distance_between: f64,
+    pub distance_between: Bound,
     /// The same for δx in the simulation, in the units of the component.
-    pub error_within: f64,
-    pub error_between: f64,
+    pub error_within: Bound,
+    pub error_between: Bound,
 }
