@@ -15,6 +15,7 @@ use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
 pub use network::nodes_named;
+use serde_json::Value;
 
 use crate::problem::{Problem, Result};
 use crate::spec::{
@@ -39,7 +40,7 @@ pub struct Plan {
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
-    pub written: serde_json::Value,
+    pub written: Value,
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
@@ -110,7 +111,15 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> 
 
 /// Checks an experiment file and reads what it names.
 pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
-    let (experiment, written) = crate::load::experiment(file)?;
+    of(crate::load::experiment(file)?, file, quick)
+}
+
+/// The same for the text of an experiment file that would be called so.
+pub fn of_text(text: &str, file: &Path, quick: bool) -> Result<Plan> {
+    of(crate::load::parse(text, file)?, file, quick)
+}
+
+fn of((experiment, written): (Experiment, Value), file: &Path, quick: bool) -> Result<Plan> {
     let id = file
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
@@ -205,11 +214,11 @@ impl Checker<'_> {
             WordOr::Word(_) => (spectra::Modes::All, n_nodes),
             WordOr::Number(modes) => {
                 let modes = usize::try_from(modes).unwrap_or(usize::MAX);
-                if modes == 0 || modes > n_nodes {
-                    let message = format!("is {modes}, but the network has modes 1 to {n_nodes}");
-                    return Err(self.problem("spectrum.modes", message));
+                if modes == 0 {
+                    return Err(self.problem("spectrum.modes", "is 0, but must be 1 or more"));
                 }
-                (spectra::Modes::Leading(modes), modes)
+                // A network that has no more shows all of its modes.
+                (spectra::Modes::Leading(modes.min(n_nodes)), modes.min(n_nodes))
             }
         };
         let solver = match spec.solver {
@@ -279,6 +288,7 @@ impl Checker<'_> {
                 ..msf::Refinement::default()
             },
             seed: self.experiment.seed,
+            instruction_set: dynamics::InstructionSet::best(),
         })
     }
 

@@ -62,8 +62,9 @@ pub struct CouplingSpec {
     pub to: String,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
+#[value(rename_all = "snake_case")]
 pub enum MatrixKind {
     /// w_ij = a_ij.
     Laplacian,

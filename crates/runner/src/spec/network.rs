@@ -57,8 +57,9 @@ pub struct AttributesSpec {
     pub position: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
+#[value(rename_all = "snake_case")]
 pub enum Format {
     /// A link a line: two labels and, if it is not 1, a weight.
     #[default]

@@ -64,6 +64,7 @@ fn a_summary_has_the_keys_that_others_rely_on() {
         "/provenance/seed",
         "/provenance/plan_hash",
         "/provenance/host_features",
+        "/provenance/instruction_set",
         "/provenance/wall_time_s",
     ] {
         assert!(summary.pointer(pointer).is_some_and(|value| !value.is_null()), "{pointer}");
