@@ -50,7 +50,7 @@ class Fixture:
 
 
 def run(name, make, *, single=False):
-    """Checks and times a peer with a fixed step, called `name` or `name()` once it is made.
+    """Checks and times a peer with a fixed step, called `name`.
 
     `make(fixture)` gives `(advance, x)`: `advance(duration)` goes on by that model time from where
     it stands, `x()` is the x of all nodes there, shape (L, N). A `single` peer advances one replica.
@@ -107,7 +107,6 @@ def measure(name, make, shortest, single):
     speed = n_replicas * fixture.n_nodes * best_speed(advance, shortest, seconds, repeats)
     if not np.isfinite(x()).all():
         sys.exit("the states are no longer numbers")
-    name = name() if callable(name) else name
     print(json.dumps({"name": name, "node_steps_per_s": speed, "seconds_to_start": ready}))
 
 

@@ -8,6 +8,8 @@
 //! 4 (2 c + 13 + 2) + 3 · 14
 //! ```
 //!
+//! Methods that choose their own step do other operations; they have no share.
+//!
 //! Each of four stages has a product and a sum for each entry of the row, 13 operations in the flow of
 //! Hindmarsh and Rose, and 2 for ε · input and its sum. Each of three components is advanced by a
 //! product and a sum for x(t + h) in four stages, and for the x of the next stage in three.
@@ -36,6 +38,13 @@ pub struct Row {
     pub node_steps_per_s: f64,
     /// Between 0 and 1, unless an implementation does fewer operations; empty where no peak is known.
     pub share_of_peak: Option<f64>,
+}
+
+impl Row {
+    /// Whether the method chooses its own step, so that the steps counted are not those it took.
+    pub fn is_adaptive(&self) -> bool {
+        self.implementation.contains(" at tolerance ")
+    }
 }
 
 /// A line of `peers.csv`, of which we need these columns.
@@ -76,7 +85,7 @@ pub fn rows(
     }
     if peak > 0.0 {
         let mut operations = HashMap::new();
-        for row in &mut rows {
+        for row in rows.iter_mut().filter(|row| !row.is_adaptive()) {
             if !operations.contains_key(&row.fixture) {
                 let file = fixtures.join(&row.fixture).with_extension("txt");
                 operations.insert(row.fixture.clone(), operations_per_node_step(&read(&file)?)?);
@@ -149,13 +158,14 @@ mod tests {
             benchmark("simulate/ring10/16", 1000.0, 2.0),
         ];
         let peers = "fixture,implementation,lanes,node_steps_per_s,largest_error_at_1,seconds_to_start\n\
-                     ring10,Tool 1.0,1,100,1e-9,0.1\n";
+                     ring10,Tool 1.0,1,100,1e-9,0.1\n\
+                     ring10,Tool 1.0 at tolerance 1e-6,1,900,1e-9,0.1\n";
         let rows = rows(&measured, "eigensync", Some(peers), &fixtures);
         std::fs::remove_dir_all(&fixtures).unwrap();
         let rows = rows.unwrap();
-        let shares: Vec<_> = rows.iter().map(|row| row.share_of_peak.unwrap()).collect();
-        assert_eq!(rows.iter().map(|row| row.lanes).collect::<Vec<_>>(), [16, 1]);
-        assert_eq!(shares, [0.5, 0.1]);
+        let shares: Vec<_> = rows.iter().map(|row| row.share_of_peak).collect();
+        assert_eq!(rows.iter().map(|row| row.lanes).collect::<Vec<_>>(), [16, 1, 1]);
+        assert_eq!(shares, [Some(0.5), Some(0.1), None], "an adaptive method has no share");
         assert_eq!(from_csv(&to_csv(&rows)).unwrap(), rows);
     }
 
