@@ -62,7 +62,7 @@ fn simulate(criterion: &mut Criterion) {
     let cortex = networks::coupling_matrix(&networks::cortex989());
     for lanes in [1, 2, 4, 8, 16] {
         let none = Observables::default;
-        let simulation_90 = simulation(communities.matrix(), 200, none());
+        let simulation_90 = simulation(communities.matrix(), 1000, none());
         time_run(criterion, "simulate/communities90", &simulation_90, lanes);
         let simulation_989 = simulation(cortex.matrix(), 40, none());
         time_run(criterion, "simulate/cortex989", &simulation_989, lanes);

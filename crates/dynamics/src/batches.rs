@@ -3,12 +3,13 @@
 use crate::instruction_set::Work;
 use crate::kernel::{Network, WIDTH};
 use crate::kicks::Kicks;
+use crate::links::Links;
 use crate::observables::ErrorSums;
 use crate::{Oscillator, Outcome, Progress, Replica, Simulation};
 
 /// Numbers of lanes, and what a step of so many costs beside that of a single one: measured on
 /// networks of 90 and 989 nodes with AVX-512, and rounded.
-const COSTS: [(usize, f64); 5] = [(1, 1.0), (2, 1.1), (4, 1.3), (8, 2.2), (WIDTH, 4.0)];
+const COSTS: [(usize, f64); 5] = [(1, 1.0), (2, 1.1), (4, 1.6), (8, 2.25), (WIDTH, 3.8)];
 
 /// Sizes of the batches into which replicas are cut so that the slowest thread ends earliest: every
 /// thread gets an equal share, and each share is cut as costs least.
@@ -39,6 +40,7 @@ fn cheapest(n_replicas: usize) -> Vec<usize> {
 /// Replicas advanced side by side in `L` lanes, their rows summed `R` side by side.
 pub(crate) struct Batch<'a, O, const D: usize, const L: usize, const R: usize> {
     pub(crate) simulation: &'a Simulation<'a>,
+    pub(crate) links: &'a Links,
     pub(crate) oscillator: O,
     /// At most `L`.
     pub(crate) replicas: &'a [Replica],
@@ -52,13 +54,13 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Work
 
     #[inline(always)]
     fn run(self) -> Vec<Outcome> {
-        let Self { simulation, oscillator, replicas, progress } = self;
-        let Simulation { schedule, observables, coupling, matrix, kick, .. } = simulation;
+        let Self { simulation, links, oscillator, replicas, progress } = self;
+        let Simulation { schedule, observables, coupling, kick, .. } = simulation;
         // Lanes beyond the batch repeat its last replica and are never read.
         let in_lanes = std::array::from_fn(|lane| replicas[lane.min(replicas.len() - 1)]);
-        let mut network = Network::<O, D, L, R>::new(oscillator, *coupling, matrix, in_lanes);
+        let mut network = Network::<O, D, L, R>::new(oscillator, *coupling, links, in_lanes);
         let mut sums =
-            ErrorSums::<L>::new(observables, matrix.rows(), schedule.samples_per_block());
+            ErrorSums::<L>::new(observables, links.n_nodes(), schedule.samples_per_block());
         let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), in_lanes);
         let mut escaped_at = [None; L];
         for sample in 1..=schedule.transient_samples() + schedule.samples() {

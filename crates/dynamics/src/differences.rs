@@ -29,11 +29,12 @@ impl<const L: usize> Samples<L> {
         Self { numbers: Aligned::zeros(n_runs * SAMPLES * WIDTH), n_samples: 0 }
     }
 
-    /// Adds a sample, run by run.
+    /// Adds a sample, the lanes of one node after the other.
     #[inline(always)]
-    pub(crate) fn push<'a>(&mut self, sample: impl Iterator<Item = &'a Run>) {
-        let place = self.numbers.as_chunks_mut().0[self.n_samples..].iter_mut().step_by(SAMPLES);
-        place.zip(sample).for_each(|(place, run)| *place = *run);
+    pub(crate) fn push<'a>(&mut self, sample: impl Iterator<Item = &'a [f64; L]>) {
+        let runs = self.numbers.as_chunks_mut::<WIDTH>().0[self.n_samples..].iter_mut();
+        let places = runs.step_by(SAMPLES).flat_map(|run| run.as_chunks_mut().0);
+        places.zip(sample).for_each(|(place, lanes)| *place = *lanes);
         self.n_samples += 1;
     }
 

@@ -1,69 +1,82 @@
 //! A step of a network, `dx_i/dt = F(x_i) + ε Σ_j w_ij H(x_j)`: Fan, Wang & Wang (2023), Eq. (1).
 //!
+//! The step is the classical Runge–Kutta step of fourth order, written with the points at which its
+//! stages evaluate the equations, f(x) being the right-hand side:
+//!
+//! ```text
+//! x_1 = x + h/2 f(x)    x_2 = x + h/2 f(x_1)    x_3 = x + h f(x_2)
+//! x(t + h) = x + [(x_1 − x) + 2 (x_2 − x) + (x_3 − x)] / 3 + h/6 f(x_3)
+//! ```
+//!
+//! so that a stage reads points that are there already and writes one, and nothing else.
+//!
 //! Lanes are replicas (couplings, seeds) advanced side by side. In memory the nodes of one component
 //! follow one another, each with its lanes, and are cut into runs of [`WIDTH`] numbers: sixteen
-//! nodes of a single replica, or one node of sixteen, or what lies between. Each stage of a step
-//!
-//! 1. sums the signals H(x_j) into the input Σ_j w_ij H(x_j) of every node, lane by lane;
-//! 2. evaluates the equations on runs of numbers, whatever nodes and lanes these are.
+//! nodes of a single replica, or one node of sixteen, or what lies between. Run by run a stage sums
+//! the signals H(x_j) into the inputs Σ_j w_ij H(x_j) of its nodes, and evaluates their equations.
 //!
 //! Every lane goes through the same operations in the same order whatever its neighbours are:
 //! results do not depend on the number of lanes, of threads, or on the machine.
+//!
+//! Source of the step: W. Kutta, Z. Math. Phys. 46, 435 (1901).
 
 use crate::aligned::Aligned;
-use crate::integrators::rk4::STAGES;
+use crate::links::Links;
 use crate::random::initial_states;
 use crate::row_sums::RowSums;
-use crate::{Coupling, ESCAPE_RADIUS, Oscillator, Replica, SparseMatrix};
+use crate::{Coupling, ESCAPE_RADIUS, Lanes, Oscillator, Replica};
 
-/// Numbers that are advanced together: two AVX-512 or eight SSE2 registers. Numbers of lanes divide
-/// it.
+/// Numbers of which inputs are summed together. Numbers of lanes divide it.
 pub(crate) const WIDTH: usize = 16;
 
-pub(crate) type Run = [f64; WIDTH];
+/// Numbers on which equations are evaluated together: one AVX-512 or four SSE2 registers.
+const VECTOR: usize = 8;
+
+/// How far from x the stages put the next point, in h.
+const ADVANCES: [f64; 3] = [0.5, 0.5, 1.0];
+
+/// Points at which a step evaluates the equations.
+const POINTS: usize = ADVANCES.len() + 1;
 
 /// A network of `L` replicas, its rows summed `R` side by side.
 pub(crate) struct Network<O, const D: usize, const L: usize, const R: usize> {
     equations: Equations<O>,
-    rows: RowSums<R>,
-    n_nodes: usize,
-    /// x at the start of the step, `[run][component][number in the run]`.
-    state: Aligned,
-    /// x at which the stage evaluates the equations, laid out as `state`.
-    ahead: Aligned,
-    /// What the stages so far have made of x(t + h), laid out as `state`.
-    sum: Aligned,
-    /// The coupled component of `ahead`, `[node][lane]`; beyond the last run a node that is always 0.
-    signals: Aligned,
-    /// Σ_j w_ij H(x_j), `[node][lane]`.
-    inputs: Aligned,
+    rows: RowSums<L, R>,
+    /// x, x_1, x_2, x_3 as `[point][component][place][lane]`; where the coupled component ends, the
+    /// signals go on, see [`RowSums`].
+    points: [[Aligned; D]; POINTS],
+}
+
+/// The right-hand side of nodes whose inputs are known.
+struct Equations<O> {
+    oscillator: O,
+    coupling: Coupling,
+    /// ε of every number in a run.
+    epsilon: [f64; WIDTH],
 }
 
 impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Network<O, D, L, R> {
     pub(crate) fn new(
         oscillator: O,
         coupling: Coupling,
-        matrix: &SparseMatrix,
+        links: &Links,
         replicas: [Replica; L],
     ) -> Self {
-        let n_nodes = matrix.rows();
-        let n_runs = (n_nodes * L).div_ceil(WIDTH);
-        let zeros = |of_each_run: usize| Aligned::zeros(n_runs * of_each_run);
+        let rows = RowSums::new(links);
+        let length = |c: usize| {
+            if c == coupling.from { rows.n_signals() } else { rows.n_runs() * WIDTH }
+        };
+        let point = |_| std::array::from_fn(|c| Aligned::zeros(length(c)));
         let mut network = Self {
             equations: Equations {
                 oscillator,
                 coupling,
                 epsilon: std::array::from_fn(|number| replicas[number % L].epsilon),
             },
-            rows: RowSums::new(matrix, n_runs * WIDTH / L),
-            n_nodes,
-            state: zeros(D * WIDTH),
-            ahead: zeros(D * WIDTH),
-            sum: zeros(D * WIDTH),
-            signals: Aligned::zeros((n_runs + 1) * WIDTH),
-            inputs: Aligned::zeros((n_runs + 1) * WIDTH),
+            points: std::array::from_fn(point),
+            rows,
         };
-        let drawn = replicas.map(|replica| initial_states::<O, D>(n_nodes, replica.seed));
+        let drawn = replicas.map(|replica| initial_states::<O, D>(links.n_nodes(), replica.seed));
         network.change_state(|component, node, lanes| {
             *lanes = std::array::from_fn(|lane| drawn[lane][node][component]);
         });
@@ -79,121 +92,114 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Network<O
         self.stage::<3>(h);
     }
 
-    /// One stage of the step, for all nodes.
+    /// Evaluates the equations at one of the points, and puts the next one; from the last, x(t + h).
     #[inline(always)]
-    fn stage<const INDEX: usize>(&mut self, h: f64) {
-        self.rows.sum::<L>(self.signals.as_chunks().0, self.inputs.as_chunks_mut().0);
-        let runs = runs_mut::<D>(&mut self.state)
-            .iter_mut()
-            .zip(runs_mut::<D>(&mut self.ahead))
-            .zip(runs_mut::<D>(&mut self.sum))
-            .zip(self.signals.as_chunks_mut().0)
-            .zip(self.inputs.as_chunks().0);
-        for ((((state, ahead), sum), signal), input) in runs {
-            self.equations.stage::<D, INDEX>(h, state, ahead, sum, signal, input);
+    fn stage<const POINT: usize>(&mut self, h: f64) {
+        let Self { equations, rows, points } = self;
+        let mut points = points.each_mut().map(|point| point.each_mut().map(runs_mut));
+        let from = equations.coupling.from;
+        rows.share(points[POINT][from].as_flattened_mut().as_chunks_mut().0);
+        for run in 0..rows.n_runs() {
+            let inputs = rows.inputs(run, points[POINT][from].as_flattened().as_chunks().0);
+            for part in 0..WIDTH / VECTOR {
+                let place = (run, part);
+                equations.stage::<D, POINT>(h, &mut points, place, vector(&inputs, part));
+            }
         }
     }
 
-    /// One component of the state, `[node][lane]`, run by run. What fills the last run up is no node.
+    /// The lanes of one component of every node, in the order of nodes.
     #[inline(always)]
-    pub(crate) fn component(&self, component: usize) -> impl Iterator<Item = &[f64; WIDTH]> {
-        self.state.as_chunks().0.as_chunks::<D>().0.iter().map(move |run| &run[component])
+    pub(crate) fn component(&self, component: usize) -> impl Iterator<Item = &[f64; L]> {
+        let placed = self.points[0][component].as_chunks().0;
+        self.rows.places().iter().map(move |&place| &placed[place as usize])
     }
 
     /// Changes the lanes of every component of every node, in this order.
     #[inline(always)]
     pub(crate) fn change_state(&mut self, mut change: impl FnMut(usize, usize, &mut [f64; L])) {
-        for c in 0..D {
-            let runs = runs_mut::<D>(&mut self.state).iter_mut();
-            let nodes = runs.flat_map(|run| run[c].as_chunks_mut::<L>().0).take(self.n_nodes);
-            nodes.enumerate().for_each(|(node, lanes)| change(c, node, lanes));
+        for (c, component) in self.points[0].iter_mut().enumerate() {
+            let placed = component.as_chunks_mut().0;
+            for (node, &place) in self.rows.places().iter().enumerate() {
+                change(c, node, &mut placed[place as usize]);
+            }
         }
-        let coupled =
-            self.state.as_chunks::<WIDTH>().0.iter().skip(self.equations.coupling.from).step_by(D);
-        self.signals.as_chunks_mut::<WIDTH>().0.iter_mut().zip(coupled).for_each(|(s, x)| *s = *x);
     }
 
     /// Lane by lane, whether every component of every node is within [`ESCAPE_RADIUS`]; a NaN is not.
     #[inline(always)]
     pub(crate) fn bounded(&self) -> [bool; L] {
-        let runs = self.state.as_chunks().0.as_chunks::<D>().0;
-        let (whole, rest) = runs.split_at(self.n_nodes * L / WIDTH);
         // 1 where a number was found outside.
-        let mut outside = [0.0; WIDTH];
-        let mut look = |run: &[[f64; WIDTH]; D], length: usize| {
-            for x in run {
-                for (outside, x) in outside[..length].iter_mut().zip(&x[..length]) {
-                    *outside = if x.abs() < ESCAPE_RADIUS { *outside } else { 1.0 };
-                }
+        let mut outside = [0.0; L];
+        for lanes in (0..D).flat_map(|c| self.component(c)) {
+            for (outside, x) in outside.iter_mut().zip(lanes) {
+                *outside = if x.abs() < ESCAPE_RADIUS { *outside } else { 1.0 };
             }
-        };
-        whole.iter().for_each(|run| look(run, WIDTH));
-        rest.iter().for_each(|run| look(run, self.n_nodes * L % WIDTH));
-        std::array::from_fn(|lane| outside[lane..].iter().step_by(L).all(|&outside| outside == 0.0))
+        }
+        outside.map(|outside| outside == 0.0)
     }
 }
 
-/// The equations of nodes whose inputs are known.
-struct Equations<O> {
-    oscillator: O,
-    coupling: Coupling,
-    /// ε of every number in a run.
-    epsilon: Run,
-}
-
 impl<O> Equations<O> {
-    /// One stage of a step h for a run of numbers: k = F(x) + ε · input at `ahead`, its part of
-    /// x(t + h), and the x at which the next stage looks.
+    /// A stage of one part of a run, whose inputs at the point are given.
     #[inline(always)]
-    fn stage<const D: usize, const INDEX: usize>(
+    fn stage<const D: usize, const POINT: usize>(
         &self,
         h: f64,
-        state: &mut [Run; D],
-        ahead: &mut [Run; D],
-        sum: &mut [Run; D],
-        signal: &mut Run,
-        input: &Run,
+        points: &mut [[&mut [[f64; WIDTH]]; D]; POINTS],
+        place: (usize, usize),
+        input: Lanes<VECTOR>,
     ) where
         O: Oscillator<D>,
     {
-        let (weight, advance) = STAGES[INDEX];
-        let (first, last) = (INDEX == 0, INDEX + 1 == STAGES.len());
-        let Coupling { from, to } = self.coupling;
-        for number in 0..WIDTH {
-            let at = if first { column(state, number) } else { column(ahead, number) };
-            let mut k = self.oscillator.flow(at);
+        let (x, at) = (vectors(&points[0], place), vectors(&points[POINT], place));
+        let mut f = self.oscillator.flow(at);
+        for c in 0..D {
+            if c == self.coupling.to {
+                f[c] = f[c] + vector(&self.epsilon, place.1) * input;
+            }
+        }
+        if POINT < ADVANCES.len() {
             for c in 0..D {
-                if c == to {
-                    k[c] += self.epsilon[number] * input[number];
-                }
-                let before = if first { state[c][number] } else { sum[c][number] };
-                let total = before + k[c] * (weight * h);
-                let next = if last { total } else { state[c][number] + k[c] * (advance * h) };
-                if last {
-                    state[c][number] = total;
-                } else {
-                    sum[c][number] = total;
-                    ahead[c][number] = next;
-                }
-                if c == from {
-                    signal[number] = next;
-                }
+                put(points[POINT + 1][c], place, x[c] + f[c] * (ADVANCES[POINT] * h));
+            }
+        } else {
+            let (x_1, x_2) = (vectors(&points[1], place), vectors(&points[2], place));
+            for c in 0..D {
+                let (d_1, d_2, d_3) = (x_1[c] - x[c], x_2[c] - x[c], at[c] - x[c]);
+                let advance = ((d_1 + d_3) + (d_2 + d_2)) * (1.0 / 3.0) + f[c] * (h / 6.0);
+                put(points[0][c], place, x[c] + advance);
             }
         }
     }
 }
 
-/// One number of every component.
+/// One part of a run of every component.
 #[inline(always)]
-fn column<const D: usize>(run: &[Run; D], number: usize) -> [f64; D] {
-    let mut column = [0.0; D];
+fn vectors<const D: usize>(
+    point: &[&mut [[f64; WIDTH]]; D],
+    (run, part): (usize, usize),
+) -> [Lanes<VECTOR>; D] {
+    // A loop, since closures are not compiled for the instruction set of their surroundings.
+    let mut vectors = [Lanes([0.0; VECTOR]); D];
     for c in 0..D {
-        column[c] = run[c][number];
+        vectors[c] = vector(&point[c][run], part);
     }
-    column
+    vectors
 }
 
 #[inline(always)]
-fn runs_mut<const D: usize>(numbers: &mut Aligned) -> &mut [[[f64; WIDTH]; D]] {
-    numbers.as_chunks_mut().0.as_chunks_mut().0
+fn put(component: &mut [[f64; WIDTH]], (run, part): (usize, usize), value: Lanes<VECTOR>) {
+    component[run].as_chunks_mut().0[part] = value.0;
+}
+
+/// One part of a run.
+#[inline(always)]
+fn vector(run: &[f64; WIDTH], part: usize) -> Lanes<VECTOR> {
+    Lanes(run.as_chunks().0[part])
+}
+
+#[inline(always)]
+fn runs_mut(numbers: &mut Aligned) -> &mut [[f64; WIDTH]] {
+    numbers.as_chunks_mut().0
 }

@@ -18,6 +18,7 @@ mod instruction_set;
 mod integrators;
 mod kernel;
 mod kicks;
+mod links;
 pub mod lyapunov;
 mod observables;
 mod oscillator;
@@ -25,6 +26,7 @@ mod oscillators;
 mod random;
 mod row_sums;
 mod scalar;
+mod shared_sums;
 mod simulation;
 mod statistics;
 

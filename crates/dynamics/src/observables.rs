@@ -9,7 +9,6 @@
 
 use crate::block_means::BlockMeans;
 use crate::differences::{Differences, SAMPLES, Samples};
-use crate::kernel::WIDTH;
 use crate::{Estimate, Lanes};
 
 /// Which synchronisation errors to average.
@@ -82,9 +81,9 @@ impl<const L: usize> ErrorSums<L> {
         }
     }
 
-    /// Adds one sample of the observed component, `[node][lane]`, run by run.
+    /// Adds one sample of the observed component, the lanes of one node after the other.
     #[inline(always)]
-    pub(crate) fn sample<'a>(&mut self, sample: impl Iterator<Item = &'a [f64; WIDTH]>) {
+    pub(crate) fn sample<'a>(&mut self, sample: impl Iterator<Item = &'a [f64; L]>) {
         self.samples.push(sample);
         self.samples_in_block += 1;
         let block_ends = self.samples_in_block == self.samples_per_block;
@@ -168,9 +167,7 @@ mod tests {
     fn observed(observables: &Observables, samples: &[[f64; 3]]) -> Errors {
         let mut sums = ErrorSums::<1>::new(observables, 3, (samples.len() / BLOCKS) as u64);
         for sample in samples {
-            let mut run = [0.0; WIDTH];
-            run[..3].copy_from_slice(sample);
-            sums.sample([run].iter());
+            sums.sample(sample.as_chunks().0.iter());
         }
         sums.errors(0)
     }
@@ -228,13 +225,7 @@ mod tests {
         let mut sums = ErrorSums::<L>::new(&observables, n_nodes, per_block as u64);
         for sample in 0..per_block * BLOCKS {
             let numbers: Vec<f64> = (0..n_nodes * L).map(|k| value(sample, k / L, k % L)).collect();
-            let run = |numbers: &[f64]| {
-                let mut run = [f64::NAN; WIDTH];
-                run[..numbers.len()].copy_from_slice(numbers);
-                run
-            };
-            let runs: Vec<_> = numbers.chunks(WIDTH).map(run).collect();
-            sums.sample(runs.iter());
+            sums.sample(numbers.as_chunks().0.iter());
         }
         let pairs: Vec<_> =
             (0..n_nodes).flat_map(|i| (i + 1..n_nodes).map(move |j| (i, j))).collect();

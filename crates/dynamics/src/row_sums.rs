@@ -1,128 +1,161 @@
-//! The coupling's sum, Σ_j w_ij x_j for every node i: the sparse part of a step.
+//! The sparse part of a step: Σ_j w_ij x_j for the nodes of one run after the other.
 //!
-//! - rows with weights of their own: w_ii x_i comes after Σ_{j≠i} w_ij x_j
-//! - when the weights within each row are equal (unweighted links): w_i Σ_{j≠i} x_j, then w_ii x_i
+//! So that a processor need not wait for one sum to be done before it starts the next, `R` rows are
+//! summed side by side. The shorter ones are filled up with a place that is always 0, which changes
+//! no bits. So that little is filled up, nodes of few lanes are placed in order of their number of
+//! terms, within windows that leave neighbours near one another.
 //!
-//! Terms are added in ascending order of j, whatever the number of lanes: one fixed definition. So
-//! that a processor need not wait for one sum to be done before it starts the next, `R` rows are
-//! summed side by side; so that rows side by side are about equally long, they are taken in order of
-//! their length. The shorter ones are filled up with a node that is always 0, which changes no bits.
+//! Source of the windows: M. Kreutzer et al., SIAM J. Sci. Comput. 36, C401 (2014), SELL-C-σ.
 
-use crate::{Lanes, SparseMatrix};
+use crate::Lanes;
+use crate::kernel::WIDTH;
+use crate::links::{Links, Row};
 
-/// The rows of a coupling matrix, `R` side by side.
-pub(crate) struct RowSums<const R: usize> {
+/// Nodes that are placed in order of their number of terms.
+const WINDOW: usize = 256;
+
+/// The rows of a network of `L` lanes, `R` side by side.
+///
+/// Signals are laid out `[place][lane]`: first the nodes in runs of [`WIDTH`] numbers, then the place
+/// that is always 0, then the shared sums.
+pub(crate) struct RowSums<const L: usize, const R: usize> {
+    /// Place of each node.
+    places: Vec<u32>,
+    n_runs: usize,
+    /// `WIDTH / L / R` for each run.
     groups: Vec<Group<R>>,
-    /// Column of each term, group by group.
-    columns: Vec<[u32; R]>,
-    /// Weight of each term; none when the weights within each row are equal.
-    weights: Option<Vec<[f64; R]>>,
+    /// Place of each term, group by group.
+    terms: Vec<[u32; R]>,
+    /// Weight of each term, where terms have weights of their own.
+    weights: Vec<[f64; R]>,
+    weighted: bool,
+    /// Places of the two terms of each shared sum.
+    shared: Vec<[u32; 2]>,
 }
 
-/// `R` rows of about the same number of terms.
+/// `R` rows in neighbouring places, of about the same number of terms.
 struct Group<const R: usize> {
-    /// Which rows.
-    nodes: [u32; R],
-    /// Where their terms end in `columns`; they begin where those of the group before end.
+    /// Where their terms end; they begin where those of the group before end.
     end: usize,
-    /// Factor of the sum over j ≠ i: the weight that all terms of a row share, or 1.
+    /// [`Row::common`] of each.
     common: [f64; R],
-    /// w_ii.
+    /// [`Row::own`] of each.
     own: [f64; R],
 }
 
-/// A row taken apart: its node, w_ii, and the terms j ≠ i.
-struct Row {
-    node: usize,
-    own: f64,
-    terms: Vec<(u32, f64)>,
-}
+impl<const L: usize, const R: usize> RowSums<L, R> {
+    const NODES_IN_RUN: usize = WIDTH / L;
+    const GROUPS_IN_RUN: usize = Self::NODES_IN_RUN / R;
 
-impl<const R: usize> RowSums<R> {
-    /// `zero_node` is a number beyond all nodes at which signals are always 0 and inputs unused.
-    pub(crate) fn new(matrix: &SparseMatrix, zero_node: usize) -> Self {
-        let zero = Row { node: zero_node, own: 0.0, terms: Vec::new() };
-        let mut rows: Vec<Row> = (0..matrix.rows()).map(|node| Row::new(matrix, node)).collect();
-        rows.sort_by_key(|row| row.terms.len());
-        let equal = rows.iter().all(Row::has_equal_weights);
-        let (mut groups, mut columns, mut weights) = (Vec::new(), Vec::new(), Vec::new());
-        for rows in rows.chunks(R) {
-            let row: [&Row; R] = std::array::from_fn(|r| rows.get(r).unwrap_or(&zero));
-            let n_terms = rows.iter().map(|row| row.terms.len()).max().unwrap_or(0);
-            let filling = (narrow(zero_node), 0.0);
-            for k in 0..n_terms {
-                let terms = row.map(|row| row.terms.get(k).copied().unwrap_or(filling));
-                columns.push(terms.map(|(column, _)| column));
-                weights.push(terms.map(|(_, weight)| weight));
+    pub(crate) fn new(links: &Links) -> Self {
+        let mut order: Vec<usize> = (0..links.n_nodes()).collect();
+        if R > 1 {
+            for window in order.chunks_mut(WINDOW) {
+                window.sort_by_key(|&node| links.rows[node].terms.len());
+            }
+        }
+        let mut places = vec![0; order.len()];
+        for (place, &node) in order.iter().enumerate() {
+            places[node] = narrow(place);
+        }
+        let n_runs = order.len().div_ceil(Self::NODES_IN_RUN);
+        let zero = n_runs * Self::NODES_IN_RUN;
+        let place = |number: u32| match (number as usize).checked_sub(places.len()) {
+            None => places[number as usize],
+            Some(shared) => narrow(zero + 1 + shared),
+        };
+        let shared = links.shared.iter().map(|pair| pair.map(place)).collect();
+        let empty = Row { own: 0.0, common: 0.0, terms: Vec::new() };
+        let (mut groups, mut terms, mut weights) = (Vec::new(), Vec::new(), Vec::new());
+        for first in (0..zero).step_by(R) {
+            let row: [&Row; R] = std::array::from_fn(|r| {
+                order.get(first + r).map_or(&empty, |&node| &links.rows[node])
+            });
+            for k in 0..row.map(|row| row.terms.len()).into_iter().max().unwrap_or(0) {
+                let term = row.map(|row| row.terms.get(k));
+                terms
+                    .push(term.map(|term| term.map_or(narrow(zero), |&(number, _)| place(number))));
+                weights.push(term.map(|term| term.map_or(0.0, |&(_, weight)| weight)));
             }
             groups.push(Group {
-                nodes: row.map(|row| narrow(row.node)),
-                end: columns.len(),
-                common: row.map(|row| if equal { row.common_weight() } else { 1.0 }),
+                end: terms.len(),
+                common: row.map(|row| row.common),
                 own: row.map(|row| row.own),
             });
         }
-        Self { groups, columns, weights: (!equal).then_some(weights) }
+        Self { places, n_runs, groups, terms, weights, weighted: links.weighted, shared }
     }
 
-    /// Sums the signals, `[node][lane]`, into the inputs of all nodes.
+    /// Runs of numbers that all nodes take.
+    pub(crate) fn n_runs(&self) -> usize {
+        self.n_runs
+    }
+
+    /// Numbers that the signals take, a multiple of [`WIDTH`].
+    pub(crate) fn n_signals(&self) -> usize {
+        (self.n_runs * WIDTH + (1 + self.shared.len()) * L).next_multiple_of(WIDTH)
+    }
+
+    /// Place of each node, in the order of nodes.
+    pub(crate) fn places(&self) -> &[u32] {
+        &self.places
+    }
+
+    /// Makes the shared sums of signals whose nodes are known.
     #[inline(always)]
-    pub(crate) fn sum<const L: usize>(&self, signals: &[[f64; L]], inputs: &mut [[f64; L]]) {
-        let signal = |column: u32| Lanes(signals[column as usize]);
-        let mut start = 0;
-        for group in &self.groups {
-            let terms = start..group.end;
-            let mut sums = [Lanes([0.0; L]); R];
-            match &self.weights {
-                None => {
-                    for columns in &self.columns[terms] {
-                        for r in 0..R {
-                            sums[r] = sums[r] + signal(columns[r]);
-                        }
-                    }
-                    for r in 0..R {
-                        sums[r] = sums[r] * group.common[r];
-                    }
+    pub(crate) fn share(&self, signals: &mut [[f64; L]]) {
+        let first = self.n_runs * Self::NODES_IN_RUN + 1;
+        for (k, [a, b]) in self.shared.iter().enumerate() {
+            let sum = Lanes(signals[*a as usize]) + Lanes(signals[*b as usize]);
+            signals[first + k] = sum.0;
+        }
+    }
+
+    /// The inputs of the nodes of a run.
+    #[inline(always)]
+    pub(crate) fn inputs(&self, run: usize, signals: &[[f64; L]]) -> [f64; WIDTH] {
+        let mut inputs = [0.0; WIDTH];
+        let (of_nodes, _) = inputs.as_chunks_mut::<L>();
+        for group in 0..Self::GROUPS_IN_RUN {
+            let sums = self.group(run * Self::GROUPS_IN_RUN + group, signals);
+            for r in 0..R {
+                of_nodes[group * R + r] = sums[r].0;
+            }
+        }
+        inputs
+    }
+
+    #[inline(always)]
+    fn group(&self, index: usize, signals: &[[f64; L]]) -> [Lanes<L>; R] {
+        let start = if index == 0 { 0 } else { self.groups[index - 1].end };
+        let group = &self.groups[index];
+        let terms = &self.terms[start..group.end];
+        let mut sums = [Lanes([0.0; L]); R];
+        if self.weighted {
+            for (places, weights) in terms.iter().zip(&self.weights[start..group.end]) {
+                for r in 0..R {
+                    sums[r] = sums[r] + Lanes(signals[places[r] as usize]) * weights[r];
                 }
-                Some(weights) => {
-                    for (columns, weights) in
-                        self.columns[terms.clone()].iter().zip(&weights[terms])
-                    {
-                        for r in 0..R {
-                            sums[r] = sums[r] + signal(columns[r]) * weights[r];
-                        }
-                    }
+            }
+        } else {
+            for places in terms {
+                for r in 0..R {
+                    sums[r] = sums[r] + Lanes(signals[places[r] as usize]);
                 }
             }
             for r in 0..R {
-                let own = signal(group.nodes[r]) * group.own[r];
-                inputs[group.nodes[r] as usize] = (sums[r] + own).0;
+                sums[r] = sums[r] * group.common[r];
             }
-            start = group.end;
         }
+        for r in 0..R {
+            sums[r] = sums[r] + Lanes(signals[index * R + r]) * group.own[r];
+        }
+        sums
     }
 }
 
-impl Row {
-    fn new(matrix: &SparseMatrix, node: usize) -> Self {
-        let row = matrix.outer_view(node).expect("the matrix has a row for every node");
-        let entries = row.indices().iter().copied().zip(row.data().iter().copied());
-        let (own, terms): (Vec<_>, Vec<_>) =
-            entries.partition(|&(column, _)| column as usize == node);
-        Self { node, own: own.first().map_or(0.0, |&(_, weight)| weight), terms }
-    }
-
-    fn has_equal_weights(&self) -> bool {
-        self.terms.iter().all(|&(_, weight)| weight == self.common_weight())
-    }
-
-    fn common_weight(&self) -> f64 {
-        self.terms.first().map_or(0.0, |&(_, weight)| weight)
-    }
-}
-
-fn narrow(node: usize) -> u32 {
-    u32::try_from(node).expect("node numbers fit the 32-bit indices of the matrix")
+fn narrow(place: usize) -> u32 {
+    u32::try_from(place).expect("places fit the 32-bit indices of the matrix")
 }
 
 #[cfg(test)]
@@ -130,19 +163,24 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::SparseMatrix;
 
-    const N: usize = 11;
+    const N: usize = 21;
 
-    fn sums<const R: usize, const L: usize>(
+    /// Inputs of all nodes, for signals of as many lanes.
+    fn inputs<const L: usize, const R: usize>(
         matrix: &SparseMatrix,
         x: &[[f64; L]],
     ) -> Vec<[f64; L]> {
-        let mut signals = x.to_vec();
-        signals.push([0.0; L]);
-        let mut inputs = vec![[0.0; L]; N + 1];
-        RowSums::<R>::new(matrix, N).sum(&signals, &mut inputs);
-        inputs.truncate(N);
-        inputs
+        let rows = RowSums::<L, R>::new(&Links::new(matrix));
+        let mut signals = vec![[0.0; L]; rows.n_signals() / L];
+        for (&place, x) in rows.places().iter().zip(x) {
+            signals[place as usize] = *x;
+        }
+        rows.share(&mut signals);
+        let runs: Vec<_> = (0..rows.n_runs()).map(|run| rows.inputs(run, &signals)).collect();
+        let placed = runs.as_flattened().as_chunks().0;
+        rows.places().iter().map(|&place| placed[place as usize]).collect()
     }
 
     fn sparse(dense: &[f64]) -> SparseMatrix {
@@ -155,29 +193,34 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_sparse_sum_is_the_dense_one_to_rounding_and_the_same_for_any_rows_side_by_side(
-            kept in prop::collection::vec(any::<bool>(), N * N),
+        fn the_sparse_sum_is_the_dense_one_to_rounding_and_the_same_in_any_number_of_lanes(
+            kept in prop::collection::vec(prop::bool::weighted(0.7), N * N),
             weights in prop::collection::vec(0.1..2.0, N * N),
             equal in any::<bool>(),
-            x in prop::collection::vec(-3.0..3.0, 2 * N),
+            x in prop::collection::vec(-3.0..3.0, 16 * N),
         ) {
             let weight = |index: usize| if equal { weights[index / N] } else { weights[index] };
             let dense: Vec<f64> =
                 (0..N * N).map(|index| if kept[index] { weight(index) } else { 0.0 }).collect();
             let matrix = sparse(&dense);
-            let x: Vec<[f64; 2]> = x.chunks(2).map(|x| [x[0], x[1]]).collect();
-            let one = sums::<1, 2>(&matrix, &x);
-            for (i, sums) in one.iter().enumerate() {
-                for lane in 0..2 {
+            let x: &[[f64; 16]] = x.as_chunks().0;
+            let all = inputs::<16, 1>(&matrix, x);
+            for (i, sums) in all.iter().enumerate() {
+                for lane in 0..16 {
                     let expected: f64 = (0..N).map(|j| dense[i * N + j] * x[j][lane]).sum();
-                    prop_assert!((sums[lane] - expected).abs() < 1e-13);
+                    prop_assert!((sums[lane] - expected).abs() < 1e-12);
                 }
             }
-            prop_assert_eq!(&sums::<2, 2>(&matrix, &x), &one);
-            prop_assert_eq!(&sums::<8, 2>(&matrix, &x), &one);
-            let first: Vec<[f64; 1]> = x.iter().map(|x| [x[0]]).collect();
-            let single = sums::<8, 1>(&matrix, &first);
-            prop_assert!(single.iter().zip(&one).all(|(single, pair)| single[0] == pair[0]));
+            macro_rules! agree {
+                ($($lanes:literal lanes, $rows:literal rows;)*) => {$({
+                    let first: Vec<[f64; $lanes]> = x.iter().map(|x| x.as_chunks().0[0]).collect();
+                    let sums = inputs::<$lanes, $rows>(&matrix, &first);
+                    let expected: Vec<[f64; $lanes]> =
+                        all.iter().map(|sums| sums.as_chunks().0[0]).collect();
+                    prop_assert_eq!(sums, expected);
+                })*};
+            }
+            agree!(1 lanes, 8 rows; 2 lanes, 4 rows; 4 lanes, 4 rows; 8 lanes, 2 rows; 16 lanes, 1 rows;);
         }
     }
 }

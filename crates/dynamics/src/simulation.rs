@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::batches::{self, Batch};
 use crate::error::{check_times, whole};
 use crate::integrators::{Method, adaptive};
+use crate::links::Links;
 use crate::observables::{Errors, Observables};
 use crate::oscillators::with_oscillator;
 use crate::statistics::BLOCKS;
@@ -116,10 +117,12 @@ impl Simulation<'_> {
         replicas: &[Replica],
         progress: Progress<'_>,
     ) -> Vec<Outcome> {
+        let links = Links::new(self.matrix);
         macro_rules! run {
             ($replicas:ident in $lanes:literal lanes, $rows:literal rows) => {
                 self.instruction_set.run(Batch::<O, D, $lanes, $rows> {
                     simulation: self,
+                    links: &links,
                     oscillator,
                     replicas: $replicas,
                     progress,

@@ -102,7 +102,7 @@ fn bits_are_the_same_on_every_machine() {
         ..lorenz.clone()
     };
     let digests = [&lorenz, &neuron].map(|s| digest(&run(s, &replicas(&[0.3, 2.4], 2))));
-    assert_eq!(digests, [0xf0c5_8051_9490_db2d, 0x5385_0ea8_a49d_eb73], "got {digests:#018x?}");
+    assert_eq!(digests, [0xc8c6_b670_0ac7_c777, 0x65c4_44c9_ed27_2acb], "got {digests:#018x?}");
 }
 
 #[test]

@@ -8,7 +8,6 @@
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 
-use crate::kernel::WIDTH;
 use crate::kicks::Kicks;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
@@ -60,7 +59,8 @@ pub(crate) fn run<O: Oscillator<D>, const D: usize>(
         }
         solved.map_err(|reason| DynamicsError::Adaptive { time, reason: reason.to_string() })?;
         if sample > schedule.transient_samples() {
-            sums.sample(runs(&y.as_slice()[observables.component * n_nodes..][..n_nodes]).iter());
+            let component = &y.as_slice()[observables.component * n_nodes..][..n_nodes];
+            sums.sample(component.as_chunks().0.iter());
         }
         if kicks.due(sample) {
             y.iter_mut().for_each(|y| kicks.apply(std::array::from_mut(y)));
@@ -68,14 +68,6 @@ pub(crate) fn run<O: Oscillator<D>, const D: usize>(
         progress(u64::from(schedule.stride));
     }
     Ok(Outcome::Completed(sums.errors(0)))
-}
-
-/// Numbers cut into runs, the last filled up with zeros.
-fn runs(numbers: &[f64]) -> Vec<[f64; WIDTH]> {
-    let run = |numbers: &[f64]| {
-        std::array::from_fn(|place| numbers.get(place).copied().unwrap_or_default())
-    };
-    numbers.chunks(WIDTH).map(run).collect()
 }
 
 impl Adaptive {
