@@ -157,6 +157,8 @@ impl Walk<'_> {
         let rule = self.rule(kind, siblings);
         let distance = match (expected.as_f64(), obtained.as_f64()) {
             (Some(a), Some(b)) => (a - b).abs(),
+            // An onset that was not found lies beyond the couplings that were swept.
+            (Some(onset), None) | (None, Some(onset)) if is_onset(kind) => self.to_an_end(onset),
             _ => f64::INFINITY,
         };
         let moved =
@@ -184,7 +186,7 @@ impl Walk<'_> {
             }
             "msf.stable[][]" => Rule::Band(BANDS * self.largest_zero_error()),
             "cascade[].epsilon[]" => Rule::Band(BANDS * self.largest_coupling_error()),
-            "cascade[].simulated_onset.mean" => {
+            _ if is_onset(kind) => {
                 let spread = BANDS * self.joint_error(siblings, "spread");
                 Rule::Band(spread + 2.0 * self.widest_step())
             }
@@ -242,10 +244,20 @@ impl Walk<'_> {
     }
 
     fn widest_step(&self) -> f64 {
+        self.swept().windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+    }
+
+    /// How far a coupling is from the nearer end of the sweep.
+    fn to_an_end(&self, epsilon: f64) -> f64 {
+        let swept = self.swept();
+        let ends = swept.first().into_iter().chain(swept.last());
+        ends.map(|end| (epsilon - end).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The couplings of the sweep, ascending.
+    fn swept(&self) -> Vec<f64> {
         let simulations = self.expected["simulations"].as_array();
-        let epsilon: Vec<f64> =
-            simulations.into_iter().flatten().filter_map(|s| s["epsilon"].as_f64()).collect();
-        epsilon.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+        simulations.into_iter().flatten().filter_map(|s| s["epsilon"].as_f64()).collect()
     }
 
     fn fail(&mut self, kind: &str, line: String) {
@@ -262,6 +274,10 @@ impl Walk<'_> {
             notes.first.push(line);
         }
     }
+}
+
+fn is_onset(kind: &str) -> bool {
+    kind == "cascade[].simulated_onset.mean"
 }
 
 /// A value on one line of bearable length.
@@ -335,6 +351,22 @@ mod tests {
         assert!(!after(|s| _ = s.as_object_mut().unwrap().remove("eigenvalues")).holds());
         assert!(!after(|s| s["eigenvalues"] = json!([0.0, -2.0])).holds());
         assert!(!after(|s| s["msf"]["sigma_c"] = Value::Null).holds());
+    }
+
+    #[test]
+    fn an_onset_that_was_not_found_lies_beyond_the_sweep() {
+        // Steps of 1 allow two of them, from an onset at 5.5 to the end of the sweep at 6, not to one at 8.
+        let onset = |last: u32| {
+            let mut expected = summary();
+            expected["simulations"] =
+                (3..=last).map(|epsilon| json!({ "epsilon": f64::from(epsilon) })).collect();
+            let mut obtained = expected.clone();
+            expected["cascade"][0]["simulated_onset"] = json!({ "mean": 5.5, "spread": 0.0 });
+            obtained["cascade"][0]["simulated_onset"] = json!({ "mean": null, "spread": null });
+            compare_summaries(&expected, &obtained).holds()
+        };
+        assert!(onset(6));
+        assert!(!onset(8));
     }
 
     #[test]
