@@ -35,7 +35,7 @@ impl Network {
             nodes.check_link(i, j, weight)?;
         }
         let ends = |&(i, j, weight): &(usize, usize, f64)| [(i, j, weight), (j, i, weight)];
-        Self::assembled(nodes, links.iter().flat_map(ends), links.iter().map(|&(i, j, _)| (i, j)))
+        Self::assembled(nodes, links.iter().flat_map(ends), &links.iter().map(|&(i, j, _)| (i, j)))
     }
 
     /// The same from links whose numbers and weights a reader has checked, no link a self-loop.
@@ -51,13 +51,13 @@ impl Network {
             let (i, j) = wide(link);
             [(i, j, link.2), (j, i, link.2)]
         });
-        Self::assembled(Nodes::new(labels)?, both, links.iter().map(wide))
+        Self::assembled(Nodes::new(labels)?, both, &links.iter().map(wide))
     }
 
     fn assembled(
         nodes: Nodes,
         both_directions: impl Iterator<Item = (usize, usize, f64)> + Clone,
-        links: impl Iterator<Item = (usize, usize)> + Clone,
+        links: &(impl Iterator<Item = (usize, usize)> + Clone),
     ) -> Result<Self, GraphError> {
         let Ok(adjacency) = assemble(nodes.n_nodes(), both_directions) else {
             let [_, repeated] =
