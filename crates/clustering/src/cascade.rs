@@ -72,6 +72,20 @@ pub fn cascade(
     stable: &StableRegion,
     rule: ClusterRule,
 ) -> Result<Vec<State>, ClusteringError> {
+    cascade_reported(spectrum, stable, rule, &|_| {})
+}
+
+/// [`cascade`], which reports every state whose clusters it has found; there are about as many as
+/// eigenspaces for each end of a stable interval.
+///
+/// # Errors
+/// Those of [`cascade`].
+pub fn cascade_reported(
+    spectrum: &Spectrum,
+    stable: &StableRegion,
+    rule: ClusterRule,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<State>, ClusteringError> {
     check_shapes(spectrum);
     check_synchronous_mode(spectrum)?;
     check_finite(spectrum, &(1..spectrum.eigenvalues.len()).collect::<Vec<_>>())?;
@@ -79,10 +93,10 @@ pub fn cascade(
     let lowest = lowest_coupling(spectrum, &eigenspaces, stable)?;
     let stretches = stretches(&eigenspaces, stable, lowest);
     let clusters = match rule {
-        ClusterRule::Exact => exact_clusters(spectrum, &stretches)?,
+        ClusterRule::Exact => exact_clusters(spectrum, &stretches, progress)?,
         ClusterRule::Threshold(threshold) => {
             let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
-            clusters_of_each(spectrum, &sets, threshold)?
+            clusters_of_each(spectrum, &sets, threshold, progress)?
         }
     };
     let last = stretches.len() - 1;
@@ -214,6 +228,7 @@ fn stretches(eigenspaces: &[Eigenspace], stable: &StableRegion, lowest: f64) -> 
 fn exact_clusters(
     spectrum: &Spectrum,
     stretches: &[Stretch],
+    progress: &dyn Fn(u64),
 ) -> Result<Vec<Partition>, ClusteringError> {
     let n_nodes = spectrum.eigenvectors[0].len();
     let one_cluster = Partition::one_cluster(n_nodes);
@@ -227,6 +242,7 @@ fn exact_clusters(
         } else {
             refined_clusters(spectrum, modes, above)?
         });
+        progress(1);
     }
     Ok(found)
 }

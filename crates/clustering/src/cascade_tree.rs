@@ -7,13 +7,7 @@
 
 use std::ops::Range;
 
-use spectra::Spectrum;
-use sprs::CsMatViewI;
-
-use crate::{
-    ClusterKind, ClusterLabel, ClusteringError, EigenvectorDistance, State, equitable,
-    label_clusters,
-};
+use crate::{ClusterKind, ClusterLabel, State, StateLabels};
 
 /// The clusters of a run of states in which they only split, from the largest ε down.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,35 +145,42 @@ impl CascadeTree {
         (0..cluster_of.len()).filter(|&node| cluster_of[node] == number).collect()
     }
 
-    /// Labels every cluster with the worst of its labels in the states where it exists.
-    ///
-    /// `matrix` is the coupling matrix and `tolerance` as in [`equitable`]. O((N m + links) · states).
-    ///
-    /// # Errors
-    /// Those of [`EigenvectorDistance::new`] and [`equitable`].
+    /// For every node, the smallest listed cluster that it is ever in; none for a node in no listed
+    /// cluster. Its parents are the other clusters of the node. O(N · states).
     ///
     /// # Panics
-    /// If spectrum, states and matrix are not those the tree was made of.
-    pub fn label(
-        &mut self,
-        states: &[State],
-        spectrum: &Spectrum,
-        matrix: CsMatViewI<'_, f64, u32, usize>,
-        tolerance: f64,
-    ) -> Result<(), ClusteringError> {
+    /// If the states are not those the tree was made of.
+    pub fn innermost(&self, states: &[State]) -> Vec<Option<usize>> {
+        let mut innermost = Vec::new();
+        let mut appearing = (0..self.clusters.len()).peekable();
         for number in self.states.clone() {
-            let State { clusters: partition, unstable_modes, .. } = &states[number];
-            let equitability = equitable(matrix, partition, tolerance)?;
-            let distance = EigenvectorDistance::new(spectrum, unstable_modes)?;
-            let labels = label_clusters(&distance, partition, &equitability);
-            let alive = self.clusters.iter_mut().filter(|c| c.states.contains(&number));
-            for cluster in alive {
-                let label = labels[partition.cluster_of()[cluster.first_node]];
-                let so_far = cluster.label.unwrap_or(label);
-                cluster.label = Some(so_far.worse(label));
+            let partition = &states[number].clusters;
+            innermost.resize(partition.n_nodes(), None);
+            let mut listed = vec![None; partition.n_clusters()];
+            let starts_here = |&id: &usize| self.clusters[id].states.start == number;
+            while let Some(id) = appearing.next_if(starts_here) {
+                listed[partition.cluster_of()[self.clusters[id].first_node]] = Some(id);
+            }
+            for (innermost, &cluster) in innermost.iter_mut().zip(partition.cluster_of()) {
+                *innermost = listed[cluster].or(*innermost);
             }
         }
-        Ok(())
+        innermost
+    }
+
+    /// Labels every cluster with the worst of its labels in the states where it exists.
+    ///
+    /// # Panics
+    /// If these are not the states the tree was made of and their labels.
+    pub fn label(&mut self, states: &[State], labels: &[StateLabels]) {
+        for number in self.states.clone() {
+            let cluster_of = states[number].clusters.cluster_of();
+            let labels = &labels[number].labels;
+            for cluster in self.clusters.iter_mut().filter(|c| c.states.contains(&number)) {
+                let label = labels[cluster_of[cluster.first_node]];
+                cluster.label = Some(cluster.label.map_or(label, |so_far| so_far.worse(label)));
+            }
+        }
     }
 }
 

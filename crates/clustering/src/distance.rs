@@ -181,6 +181,9 @@ impl EigenvectorDistance {
         let first_nodes = partition.first_nodes();
         let mut spreads = vec![Spread { distance: 0.0, is_rounding: is_known }; first_nodes.len()];
         for (node, &cluster) in partition.cluster_of().iter().enumerate() {
+            if node == first_nodes[cluster] {
+                continue;
+            }
             let (first, row) = (self.row(first_nodes[cluster]), self.row(node));
             let Spread { distance, is_rounding } = &mut spreads[cluster];
             *distance = distance.max(self.metric.distance_up_to(f64::INFINITY, first, row));

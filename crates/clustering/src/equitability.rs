@@ -107,6 +107,8 @@ struct SumsToClusters {
     n_linked: Vec<usize>,
     /// The clusters to which some node has a link.
     linked: Vec<u32>,
+    /// Those to which the node at hand has one.
+    reached: Vec<usize>,
 }
 
 impl SumsToClusters {
@@ -117,6 +119,7 @@ impl SumsToClusters {
             range: vec![(0.0, 0.0); n_clusters],
             n_linked: vec![0; n_clusters],
             linked: Vec::new(),
+            reached: Vec::new(),
         }
     }
 
@@ -146,17 +149,16 @@ impl SumsToClusters {
         node: usize,
     ) -> f64 {
         let mut strength = 0.0;
-        let mut reached = Vec::new();
         let row = matrix.outer_view(node).expect("one row a node");
         for (neighbour, &weight) in row.iter() {
             let cluster = partition.cluster_of()[neighbour];
             if !std::mem::replace(&mut self.is_summed[cluster], true) {
-                reached.push(cluster);
+                self.reached.push(cluster);
             }
             self.sum[cluster] += weight;
             strength += weight.abs();
         }
-        for cluster in reached {
+        while let Some(cluster) = self.reached.pop() {
             let sum = std::mem::take(&mut self.sum[cluster]);
             self.is_summed[cluster] = false;
             self.widen(cluster, sum);

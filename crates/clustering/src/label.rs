@@ -1,8 +1,11 @@
 //! What kind of cluster each is: exact, where no unstable mode tells its nodes apart and its nodes
 //! have the same total weight to every cluster; approximate otherwise, with how far it is from both.
 
+use spectra::Spectrum;
+use sprs::CsMatViewI;
+
 use crate::distance::Spread;
-use crate::{EigenvectorDistance, Equitability, Partition};
+use crate::{ClusteringError, EigenvectorDistance, Equitability, Partition, State, equitable};
 
 /// The kind of a cluster, from the strictest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,6 +49,45 @@ impl ClusterLabel {
             spread: self.spread.max(other.spread),
             deviation: self.deviation.max(other.deviation),
         }
+    }
+}
+
+/// The labels of all clusters of one predicted state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateLabels {
+    /// How far apart nodes of an exact cluster may be in the unstable subspace, as
+    /// [`EigenvectorDistance::exact_tolerance`] has it.
+    pub exact_tolerance: f64,
+    /// Whether the clusters have equal total weights to one another.
+    pub equitability: Equitability,
+    /// The label of every cluster.
+    pub labels: Vec<ClusterLabel>,
+}
+
+impl StateLabels {
+    /// Of a state of this spectrum; `matrix` is the coupling matrix and `tolerance` as in
+    /// [`equitable`]. O(N m + links).
+    ///
+    /// # Errors
+    /// Those of [`EigenvectorDistance::new`] and [`equitable`].
+    ///
+    /// # Panics
+    /// If the three are not of the same nodes.
+    pub fn of(
+        state: &State,
+        spectrum: &Spectrum,
+        matrix: CsMatViewI<'_, f64, u32, usize>,
+        tolerance: f64,
+    ) -> Result<Self, ClusteringError> {
+        let equitability = equitable(matrix, &state.clusters, tolerance)?;
+        let distance = EigenvectorDistance::new(spectrum, &state.unstable_modes)?;
+        let labels = label_clusters(&distance, &state.clusters, &equitability);
+        Ok(Self { exact_tolerance: distance.exact_tolerance(), equitability, labels })
+    }
+
+    /// Number of clusters of one kind.
+    pub fn count(&self, kind: ClusterKind) -> usize {
+        self.labels.iter().filter(|label| label.kind == kind).count()
     }
 }
 

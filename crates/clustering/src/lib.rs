@@ -26,12 +26,12 @@ mod regions;
 mod tolerance;
 
 pub use agreement::{MaximumOverlap, adjusted_rand_index, maximum_overlap};
-pub use cascade::{ClusterRule, State, cascade, merge_equal_clusters};
+pub use cascade::{ClusterRule, State, cascade, cascade_reported, merge_equal_clusters};
 pub use cascade_tree::{CascadeTree, TreeCluster, TreeEnd, TreeRow};
 pub use correlation::{Correlation, correlation_of_pairs, pearson, spearman};
 pub use distance::{EigenvectorDistance, mean_over_bases};
 pub use equitability::{Equitability, equitable};
 pub use error::ClusteringError;
-pub use label::{ClusterKind, ClusterLabel, label_clusters};
+pub use label::{ClusterKind, ClusterLabel, StateLabels, label_clusters};
 pub use partition::Partition;
 pub use regions::{RegionAgreement, RegionClusters, RegionDistances, RegionThresholds};

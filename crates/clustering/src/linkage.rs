@@ -34,7 +34,7 @@ const STEPS: usize = 8;
 ///
 /// Sets are taken one by one while a tree of cells settles most pairs, as in large networks with few
 /// modes, and the rest in one pass once they have cost about half as much as the pass would. For
-/// sets of few runs O(N² (modes + sets)) at most; memory O(N · (modes + sets)).
+/// sets of few runs O(N² (modes + sets)) at most; memory O(N · (modes + sets)). Reports each set.
 ///
 /// # Errors
 /// Those of [`EigenvectorDistance::new`] and [`EigenvectorDistance::clusters_within`].
@@ -42,6 +42,7 @@ pub(crate) fn clusters_of_each(
     spectrum: &Spectrum,
     sets: &[&[usize]],
     threshold: f64,
+    progress: &dyn Fn(u64),
 ) -> Result<Vec<Partition>, ClusteringError> {
     check_threshold(threshold)?;
     let n_nodes = spectrum.eigenvectors[0].len();
@@ -52,10 +53,12 @@ pub(crate) fn clusters_of_each(
         let distance = EigenvectorDistance::new(spectrum, modes)?;
         let Some(clusters) = distance.clusters_with_work(threshold, &mut work)? else { break };
         found.push(clusters);
+        progress(1);
     }
     let rest = &sets[found.len()..];
     if !rest.is_empty() {
         found.extend(in_one_pass(spectrum, rest, threshold)?);
+        progress(rest.len() as u64);
     }
     Ok(found)
 }
@@ -334,7 +337,7 @@ mod tests {
             let sets: Vec<&[usize]> = sets.iter().map(|modes| &modes[..]).collect();
             let expected = one_by_one(&spectrum, &sets, threshold);
             prop_assert_eq!(&in_one_pass(&spectrum, &sets, threshold).unwrap(), &expected);
-            prop_assert_eq!(&clusters_of_each(&spectrum, &sets, threshold).unwrap(), &expected);
+            prop_assert_eq!(&clusters_of_each(&spectrum, &sets, threshold, &|_| {}).unwrap(), &expected);
         }
 
         // Components in tenths round in every sum, and distances often equal the threshold but

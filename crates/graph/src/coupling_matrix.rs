@@ -22,7 +22,8 @@ pub enum Normalization {
 #[derive(Clone, Debug)]
 pub struct CouplingMatrix {
     matrix: SparseMatrix,
-    symmetric: SparseMatrix,
+    /// None where it is the matrix itself.
+    symmetric: Option<SparseMatrix>,
     scale: Vec<f64>,
 }
 
@@ -34,7 +35,7 @@ impl CouplingMatrix {
         match normalization {
             Normalization::Laplacian => {
                 let matrix = with_diagonal(adjacency, |_, _, a| a, |i| -strengths[i]);
-                Self { symmetric: matrix.clone(), matrix, scale: vec![1.0; network.n_nodes()] }
+                Self { symmetric: None, matrix, scale: vec![1.0; network.n_nodes()] }
             }
             Normalization::Normalized => {
                 let is_linked = |i: usize| strengths[i] > 0.0;
@@ -44,7 +45,7 @@ impl CouplingMatrix {
                 let matrix = with_diagonal(adjacency, |i, _, a| a / strengths[i], diagonal);
                 let symmetric =
                     with_diagonal(adjacency, |i, j, a| scale[i] * scale[j] * a, diagonal);
-                Self { matrix, symmetric, scale }
+                Self { matrix, symmetric: Some(symmetric), scale }
             }
         }
     }
@@ -62,7 +63,7 @@ impl CouplingMatrix {
     /// The symmetric matrix S similar to W, shape (N, N), every diagonal entry stored: same
     /// eigenvalues, and v = `scale` · u (elementwise) is an eigenvector of W when u is one of S.
     pub fn symmetric(&self) -> &SparseMatrix {
-        &self.symmetric
+        self.symmetric.as_ref().unwrap_or(&self.matrix)
     }
 
     /// D^{-1/2}, length N: what takes eigenvectors of [`Self::symmetric`] to those of W. All ones
@@ -79,17 +80,24 @@ fn with_diagonal(
     diagonal: impl Fn(usize) -> f64,
 ) -> SparseMatrix {
     let n_nodes = adjacency.rows();
+    let n_entries = adjacency.nnz() + n_nodes;
     let mut row_starts = Vec::with_capacity(n_nodes + 1);
-    let mut entries: Vec<(u32, f64)> = Vec::with_capacity(adjacency.nnz() + n_nodes);
+    let mut columns = Vec::with_capacity(n_entries);
+    let mut values = Vec::with_capacity(n_entries);
     row_starts.push(0);
     for (i, row) in adjacency.outer_iterator().enumerate() {
-        let start = entries.len();
-        entries.push((u32::try_from(i).expect("a network's nodes fit in u32"), diagonal(i)));
-        let linked = row.indices().iter().zip(row.data());
-        entries.extend(linked.map(|(&j, &a)| (j, off_diagonal(i, j as usize, a))));
-        entries[start..].sort_unstable_by_key(|&(column, _)| column);
-        row_starts.push(entries.len());
+        let node = u32::try_from(i).expect("a network's nodes fit in u32");
+        let n_before = row.indices().partition_point(|&j| j < node);
+        let (before, after) = row.indices().split_at(n_before);
+        columns.extend(before);
+        columns.push(node);
+        columns.extend(after);
+        let (before, after) = row.data().split_at(n_before);
+        let linked = |(&j, &a): (&u32, &f64)| off_diagonal(i, j as usize, a);
+        values.extend(row.indices().iter().zip(before).map(linked));
+        values.push(diagonal(i));
+        values.extend(row.indices()[n_before..].iter().zip(after).map(linked));
+        row_starts.push(columns.len());
     }
-    let (columns, values) = entries.into_iter().unzip();
     SparseMatrix::new((n_nodes, n_nodes), row_starts, columns, values)
 }

@@ -1,7 +1,7 @@
 //! A network: sparse adjacency a_ij = a_ji ≥ 0 (the strength with which j drives i), a_ii = 0, and
 //! what is known of its nodes: labels, groups, positions.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use crate::nodes::{Group, Nodes};
 use crate::{GraphError, SparseMatrix};
@@ -34,10 +34,35 @@ impl Network {
         for &(i, j, weight) in links {
             nodes.check_link(i, j, weight)?;
         }
-        let both_directions =
-            links.iter().flat_map(|&(i, j, weight)| [(i, j, weight), (j, i, weight)]);
+        let ends = |&(i, j, weight): &(usize, usize, f64)| [(i, j, weight), (j, i, weight)];
+        Self::assembled(nodes, links.iter().flat_map(ends), &links.iter().map(|&(i, j, _)| (i, j)))
+    }
+
+    /// The same from links whose numbers and weights a reader has checked, no link a self-loop.
+    ///
+    /// # Errors
+    /// Those of [`Self::undirected`] that are left.
+    pub(crate) fn of_distinct_ends(
+        labels: Vec<String>,
+        links: &[(u32, u32, f64)],
+    ) -> Result<Self, GraphError> {
+        let wide = |&(i, j, _): &(u32, u32, f64)| (i as usize, j as usize);
+        let both = links.iter().flat_map(move |link| {
+            let (i, j) = wide(link);
+            [(i, j, link.2), (j, i, link.2)]
+        });
+        Self::assembled(Nodes::new(labels)?, both, &links.iter().map(wide))
+    }
+
+    fn assembled(
+        nodes: Nodes,
+        both_directions: impl Iterator<Item = (usize, usize, f64)> + Clone,
+        links: &(impl Iterator<Item = (usize, usize)> + Clone),
+    ) -> Result<Self, GraphError> {
         let Ok(adjacency) = assemble(nodes.n_nodes(), both_directions) else {
-            let (i, j) = first_repeated(links).expect("only a link given twice repeats an entry");
+            let [_, repeated] =
+                first_repeated(links.clone()).expect("only a link given twice repeats an entry");
+            let (i, j) = links.clone().nth(repeated).expect("it is one of the links");
             let (from, to) = (nodes.labels()[i].clone(), nodes.labels()[j].clone());
             return Err(GraphError::DuplicateLink { from, to });
         };
@@ -130,7 +155,8 @@ impl Network {
 
 /// Compressed rows, columns ascending, from entries in any order, or the first repeated entry.
 ///
-/// A counting sort by rows, so that a node with very many links costs no more than many nodes.
+/// A counting sort by rows, so that a node with very many links costs no more than many nodes. Rows
+/// of entries that come in order need no further sorting.
 pub(crate) fn assemble(
     n_nodes: usize,
     entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
@@ -141,20 +167,36 @@ pub(crate) fn assemble(
         row_starts[i + 1] += row_starts[i];
     }
     let mut free = row_starts.clone();
-    let mut row_entries = vec![(0u32, 0.0); row_starts[n_nodes]];
+    let mut columns = vec![0u32; row_starts[n_nodes]];
+    let mut values = vec![0.0; row_starts[n_nodes]];
     for (i, j, value) in entries {
-        row_entries[free[i]] = (u32::try_from(j).expect("nodes are numbered in 32 bits"), value);
+        columns[free[i]] = u32::try_from(j).expect("nodes are numbered in 32 bits");
+        values[free[i]] = value;
         free[i] += 1;
     }
+    drop(free);
+    let mut scratch = Vec::new();
     for i in 0..n_nodes {
-        let row = &mut row_entries[row_starts[i]..row_starts[i + 1]];
-        row.sort_unstable_by_key(|&(column, _)| column);
-        if let Some(pair) = row.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err((i, pair[0].0 as usize));
+        let row = row_starts[i]..row_starts[i + 1];
+        let columns = &mut columns[row.clone()];
+        sort_by_column(columns, &mut values[row], &mut scratch);
+        if let Some(pair) = columns.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err((i, pair[0] as usize));
         }
     }
-    let (columns, values) = row_entries.into_iter().unzip();
     Ok(SparseMatrix::new((n_nodes, n_nodes), row_starts, columns, values))
+}
+
+fn sort_by_column(columns: &mut [u32], values: &mut [f64], scratch: &mut Vec<(u32, f64)>) {
+    if columns.is_sorted() {
+        return;
+    }
+    scratch.clear();
+    scratch.extend(columns.iter().copied().zip(values.iter().copied()));
+    scratch.sort_unstable_by_key(|&(column, _)| column);
+    for ((column, value), entry) in columns.iter_mut().zip(values).zip(scratch) {
+        (*column, *value) = *entry;
+    }
 }
 
 /// Sets of nodes between which links lead, whatever their direction, in a matrix that is symmetric.
@@ -182,8 +224,16 @@ pub(crate) fn components(symmetric: &SparseMatrix) -> Vec<Vec<usize>> {
     components
 }
 
-/// The first link that repeats an earlier one in either direction.
-fn first_repeated(links: &[(usize, usize, f64)]) -> Option<(usize, usize)> {
-    let mut seen = HashSet::new();
-    links.iter().find(|&&(i, j, _)| !seen.insert((i.min(j), i.max(j)))).map(|&(i, j, _)| (i, j))
+/// The places of the first link that repeats an earlier one, in either direction, and of that one:
+/// [earlier, repeated].
+pub(crate) fn first_repeated(
+    mut links: impl Iterator<Item = (usize, usize)>,
+) -> Option<[usize; 2]> {
+    let mut seen = HashMap::new();
+    let mut places = 0..;
+    links.find_map(|(i, j)| {
+        let place = places.next()?;
+        let earlier = seen.insert((i.min(j), i.max(j)), place)?;
+        Some([earlier, place])
+    })
 }

@@ -36,7 +36,28 @@ impl RawNetwork {
         for &(i, j, value) in entries {
             nodes.check_entry(i, j, value)?;
         }
-        let links = entries.iter().copied().filter(|&(_, _, value)| value != 0.0);
+        Self::assembled(nodes, entries.iter().copied(), directed)
+    }
+
+    /// The same from entries whose numbers and values a reader has checked.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`] that are left.
+    pub(crate) fn of_checked(
+        labels: Vec<String>,
+        entries: &[(u32, u32, f64)],
+        directed: bool,
+    ) -> Result<Self, GraphError> {
+        let wide = |&(i, j, value): &(u32, u32, f64)| (i as usize, j as usize, value);
+        Self::assembled(Nodes::new(labels)?, entries.iter().map(wide), directed)
+    }
+
+    fn assembled(
+        nodes: Nodes,
+        entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
+        directed: bool,
+    ) -> Result<Self, GraphError> {
+        let links = entries.filter(|&(_, _, value)| value != 0.0);
         let matrix = assemble(nodes.n_nodes(), links).map_err(|(i, j)| {
             let (row, column) = (nodes.labels()[i].clone(), nodes.labels()[j].clone());
             GraphError::DuplicateEntry { row, column }

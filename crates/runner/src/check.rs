@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clustering::ClusterRule;
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{Adaptive, AdaptiveOrder, Method, Observables, Schedule, Simulation};
+use spectra::Spectrum;
 
 use crate::plan::{Plan, Sweep};
 use crate::spec::MatrixKind;
@@ -26,12 +27,28 @@ pub fn warn(plan: &Plan) {
             labels.join(", ")
         );
     }
-    let components = network.components().len();
+    let components = plan.n_components;
     if components > 1 {
         eprintln!(
-            "warning: {}: the network has {components} components, so {} modes have eigenvalue 0 and \
-             no coupling synchronises it globally",
-            plan.id, components
+            "warning: {}: the network has {components} components, so {components} modes have \
+             eigenvalue 0 and no coupling synchronises it globally",
+            plan.id
+        );
+    }
+}
+
+/// Says on standard error where links are too weak beside others to count in the spectrum.
+pub fn warn_of_weak_links(plan: &Plan, spectrum: &Spectrum) {
+    let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
+    if n_zero > plan.n_components {
+        let network = match plan.n_components {
+            1 => "the network is connected".into(),
+            n => format!("the network has {n} components"),
+        };
+        eprintln!(
+            "warning: {}: {network}, yet {n_zero} modes have eigenvalue 0 up to {:.0e}: links much \
+             weaker than the strongest hold no nodes together here",
+            plan.id, spectrum.tolerance
         );
     }
 }
@@ -50,7 +67,7 @@ pub fn describe(plan: &Plan) -> String {
             "{} nodes, {} links, {} component(s), {} isolated",
             network.n_nodes(),
             network.n_links(),
-            network.components().len(),
+            plan.n_components,
             network.isolated_nodes().len()
         ),
     );

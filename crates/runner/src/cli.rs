@@ -11,7 +11,6 @@ use crate::claims::{Claim, Verdict};
 use crate::output::say;
 use crate::plan;
 use crate::problem::{Problem, Result};
-use crate::progress::Stages;
 use crate::spec::FigureKind;
 use crate::{check, claims, compare, findings, load, predict, record, results, table};
 
@@ -158,14 +157,13 @@ fn run_files(
     for plan in &plans {
         check::warn(plan);
         let started = Instant::now();
-        let stages = Stages::new(&plan.id);
-        let found = findings::find(plan, &mut curves, &stages)?;
+        let planned = plan.stages.total();
+        let took = || planned + started.elapsed();
+        let found = findings::find(plan, &mut curves, &plan.stages)?;
         let claims = claims::judge(plan, &found)?;
-        let clock = (started, &stages);
-        let place = results::write(plan, &found, claims.clone(), clock, &folders.results)?;
-        let (id, all) = (plan.id.clone(), started.elapsed());
-        times.push(table::Times { id, stages: stages.took(), all });
-        eprintln!("{}: {} in {}", plan.id, place.display(), seconds(started.elapsed()));
+        let place = results::write(plan, &found, claims.clone(), took, &folders.results)?;
+        times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
+        eprintln!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
         if plan.figure().kind != FigureKind::Sweep {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);

@@ -1,15 +1,26 @@
 //! What an experiment found: the stages of a run in order, each from those before it.
 
-use clustering::{Partition, State, merge_equal_clusters};
+use clustering::{
+    CascadeTree, ClusteringError, Partition, State, StateLabels, merge_equal_clusters,
+};
 use dynamics::DynamicsError;
 use msf::{CriticalCoupling, MasterStability};
+use rayon::prelude::*;
 use spectra::Spectrum;
 
 use crate::agreement::{self, Agreement};
+use crate::check;
 use crate::plan::{Plan, Sweep};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::Simulated;
+
+/// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
+/// by rounding.
+pub const EQUITABLE: f64 = 1e-9;
+
+/// Clusters of fewer nodes are in no tree: a million single nodes tell nothing.
+const LEAST_LISTED: usize = 2;
 
 /// Everything computed in one run.
 pub struct Findings {
@@ -18,6 +29,10 @@ pub struct Findings {
     pub critical: Vec<CriticalCoupling>,
     /// Predicted states, from large ε down; neighbours differ in their clusters.
     pub cascade: Vec<State>,
+    /// Of each of these states.
+    pub labels: Vec<StateLabels>,
+    /// The same states as trees, labelled: one for each run of states in which clusters only split.
+    pub trees: Vec<CascadeTree>,
     pub simulated: Option<Simulated>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
@@ -56,10 +71,16 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let spectrum = stages
         .unmeasured("spectrum", || spectra::leading_modes(&plan.matrix, &plan.spectrum))
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
+    check::warn_of_weak_links(plan, &spectrum);
     let msf = curves.of(plan, stages)?;
     let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
-    let states = clustering::cascade(&spectrum, &msf.stable_region(), plan.rule)
-        .map_err(|error| failed("the cascade could not be predicted", &error))?;
+    let stable = msf.stable_region();
+    let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
+    let states = stages
+        .measured("clusters", n_states, |progress| {
+            clustering::cascade_reported(&spectrum, &stable, plan.rule, progress)
+        })
+        .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
         Some(sweep) => Some(simulate(plan, sweep, stages)?),
         None => None,
@@ -70,7 +91,43 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         None => Vec::new(),
     };
     let cascade = merge_equal_clusters(&states);
-    Ok(Findings { cascade, spectrum, msf, critical, simulated, agreement })
+    drop(states);
+    let labels = labels(plan, &spectrum, &cascade, stages)
+        .map_err(|error| failed("the clusters cannot be labelled", &error))?;
+    let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
+    trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
+    Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement })
+}
+
+fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {
+    let problem =
+        Problem::from_error("the cascade could not be predicted", error).in_file(&plan.file);
+    match error {
+        ClusteringError::NoTransverseMode { .. } => problem.hint(format!(
+            "the network has {} components, and each brings an eigenvalue 0: ask for more modes \
+             than that, or prepare the network by `largest_component`",
+            plan.n_components
+        )),
+        _ => problem,
+    }
+}
+
+/// Which clusters are exact and which approximate, state by state.
+fn labels(
+    plan: &Plan,
+    spectrum: &Spectrum,
+    states: &[State],
+    stages: &Stages,
+) -> std::result::Result<Vec<StateLabels>, ClusteringError> {
+    let matrix = plan.matrix.matrix().view();
+    stages.measured("labels", states.len() as u64, |progress| {
+        let of = |state: &State| {
+            let labels = StateLabels::of(state, spectrum, matrix, EQUITABLE);
+            progress(1);
+            labels
+        };
+        states.par_iter().map(of).collect()
+    })
 }
 
 fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {

@@ -6,6 +6,7 @@
 //! and terminals; it knows no numerical method.
 
 mod agreement;
+mod cascade_files;
 mod check;
 mod claims;
 mod cli;

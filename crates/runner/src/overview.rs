@@ -1,14 +1,15 @@
-//! A prediction in words: the network, its leading modes, the stable set, the cascade of states.
+//! A prediction in words: the network, its leading modes, the stable set, the cascade of states, which
+//! of their clusters are exact, and what it all took.
 
 use std::fmt::Write;
-use std::time::Duration;
 
-use clustering::State;
+use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 
-use crate::findings::Findings;
+use crate::findings::{EQUITABLE, Findings};
 use crate::plan::Plan;
+use crate::provenance::peak_memory;
 use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
@@ -16,33 +17,30 @@ const SHOWN: usize = 12;
 /// Sizes shown of the clusters of one state.
 const SIZES: usize = 5;
 
-/// The prediction of a plan whose network took so long to read.
-pub fn of(plan: &Plan, findings: &Findings, read: Duration) -> String {
+/// The prediction of a plan.
+pub fn of(plan: &Plan, findings: &Findings) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         writeln!(text, "{name:<12} {value}").expect("a string takes every line");
     };
-    line("network", network(plan, read));
+    line("network", network(plan));
     line("modes", modes(findings));
     line("lambda", lambda(findings));
     line("stable for", stable(findings));
     line("", String::new());
     text.push_str(&cascade(plan, findings));
+    text.push_str(&exactness(findings));
+    writeln!(text, "\n{}", cost(plan)).expect("a string takes every line");
     text
 }
 
-fn network(plan: &Plan, read: Duration) -> String {
+fn network(plan: &Plan) -> String {
     let network = &plan.network;
-    let parts = match network.components().len() {
+    let parts = match plan.n_components {
         1 => "connected".into(),
         parts => format!("{} components", grouped(parts)),
     };
-    format!(
-        "{} nodes, {} links, {parts}; read in {:.1} s",
-        grouped(network.n_nodes()),
-        grouped(network.n_links()),
-        read.as_secs_f64()
-    )
+    format!("{} nodes, {} links, {parts}", grouped(network.n_nodes()), grouped(network.n_links()))
 }
 
 fn modes(findings: &Findings) -> String {
@@ -84,9 +82,16 @@ fn stable(findings: &Findings) -> String {
 fn cascade(plan: &Plan, findings: &Findings) -> String {
     let mut table = Table::new();
     table.load_style(NOTHING);
-    table.set_header(["epsilon", "unstable modes", "clusters", "their sizes", "nodes alone"]);
-    for state in findings.cascade.iter().take(SHOWN) {
-        table.add_row(row(state));
+    table.set_header([
+        "epsilon",
+        "unstable modes",
+        "clusters",
+        "exact",
+        "their sizes",
+        "nodes alone",
+    ]);
+    for (state, labels) in findings.cascade.iter().zip(&findings.labels).take(SHOWN) {
+        table.add_row(row(state, labels));
     }
     let mut text = format!("{table}\n");
     if findings.cascade.len() > SHOWN {
@@ -107,7 +112,44 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     text
 }
 
-fn row(state: &State) -> [String; 5] {
+/// What `exact` means here, and how far the clusters that are not are from it.
+fn exactness(findings: &Findings) -> String {
+    let largest = |of: fn(&StateLabels) -> f64| findings.labels.iter().map(of).fold(0.0, f64::max);
+    let tolerance = largest(|labels| labels.exact_tolerance);
+    let mut text = format!(
+        "\nexact: equal within {} in all unstable modes, and within {EQUITABLE:e} in the total weights \
+         to every cluster\n",
+        two_digits(tolerance)
+    );
+    let kinds = findings.labels.iter().flat_map(|state| &state.labels);
+    let approximate = kinds.filter(|label| label.kind == ClusterKind::Approximate);
+    let worst = approximate.map(|label| (label.spread, label.deviation));
+    if let Some((spread, deviation)) = worst.reduce(|a, b| (a.0.max(b.0), a.1.max(b.1))) {
+        writeln!(
+            text,
+            "the other clusters are approximate: their nodes are up to {} apart in the unstable \
+             modes, their total weights differ by up to {} of a node's strength",
+            two_digits(spread),
+            two_digits(deviation)
+        )
+        .expect("a string takes every line");
+    }
+    text
+}
+
+/// Seconds by stage, and memory where the system tells it.
+fn cost(plan: &Plan) -> String {
+    let stages = plan.stages.took().into_iter();
+    let stages = stages.map(|(name, time)| format!("{name} {:.1} s", time.as_secs_f64()));
+    let mut text = stages.collect::<Vec<_>>().join(", ");
+    if let Some(bytes) = peak_memory() {
+        write!(text, "; at most {:.2} GB of memory", bytes as f64 / 1e9)
+            .expect("a string takes every text");
+    }
+    text
+}
+
+fn row(state: &State, labels: &StateLabels) -> [String; 6] {
     let (from, to) = state.epsilon;
     let epsilon = match to {
         Some(to) => format!("{} to {}", four_digits(to), four_digits(from)),
@@ -126,6 +168,7 @@ fn row(state: &State) -> [String; 5] {
         epsilon,
         grouped(state.unstable_modes.len()),
         grouped(sizes.len()),
+        grouped(labels.count(ClusterKind::Exact)),
         largest.join(" + "),
         grouped(alone),
     ]

@@ -18,6 +18,7 @@ pub use network::nodes_named;
 use serde_json::Value;
 
 use crate::problem::{Problem, Result};
+use crate::progress::Stages;
 use crate::spec::{
     Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr,
 };
@@ -44,6 +45,8 @@ pub struct Plan {
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
+    /// Number of connected components.
+    pub n_components: usize,
     /// What each step of preparation did.
     pub preparation: Vec<Report>,
     pub matrix: CouplingMatrix,
@@ -52,6 +55,8 @@ pub struct Plan {
     pub msf: msf::Request,
     pub rule: ClusterRule,
     pub sweep: Option<Sweep>,
+    /// The stages of the run, that of reading the network already taken.
+    pub stages: Stages,
 }
 
 /// Simulations over ε.
@@ -111,23 +116,34 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> 
 
 /// Checks an experiment file and reads what it names.
 pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
-    of(crate::load::experiment(file)?, file, quick)
+    of(crate::load::experiment(file)?, file, quick, Stages::new(&id(file)?))
 }
 
-/// The same for the text of an experiment file that would be called so.
-pub fn of_text(text: &str, file: &Path, quick: bool) -> Result<Plan> {
-    of(crate::load::parse(text, file)?, file, quick)
+/// The same for the text of an experiment file that would be called so, after some stages.
+pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<Plan> {
+    of(crate::load::parse(text, file)?, file, quick, stages)
 }
 
-fn of((experiment, written): (Experiment, Value), file: &Path, quick: bool) -> Result<Plan> {
-    let id = file
-        .file_stem()
+/// What the results of an experiment file are called: its name without the ending.
+pub fn id(file: &Path) -> Result<String> {
+    file.file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
-        .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))?;
+        .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))
+}
+
+fn of(
+    (experiment, written): (Experiment, Value),
+    file: &Path,
+    quick: bool,
+    stages: Stages,
+) -> Result<Plan> {
     let shortened = if quick { QUICK } else { 1.0 };
-    let checker = Checker { file, experiment: &experiment, shortened };
+    let checker = Checker { file, experiment: &experiment, shortened, stages: &stages };
     let (network, preparation) = checker.network()?;
-    let matrix = CouplingMatrix::new(&network, checker.normalization());
+    let (n_components, matrix) = stages.unmeasured("preparation", || {
+        let n_components = network.components().len();
+        (n_components, CouplingMatrix::new(&network, checker.normalization()))
+    });
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
     let plan = Plan {
@@ -135,26 +151,29 @@ fn of((experiment, written): (Experiment, Value), file: &Path, quick: bool) -> R
         msf: checker.msf(node.coupling)?,
         rule: checker.rule()?,
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
-        id,
+        id: id(file)?,
         file: file.to_owned(),
         shortened,
         network,
+        n_components,
         preparation,
         matrix,
         node,
         experiment: experiment.clone(),
         written,
+        stages: Stages::default(),
     };
     checker.regions(&plan.network)?;
     checker.figure(&plan.network)?;
     checker.claims(&plan)?;
-    Ok(plan)
+    Ok(Plan { stages, ..plan })
 }
 
 struct Checker<'a> {
     file: &'a Path,
     experiment: &'a Experiment,
     shortened: f64,
+    stages: &'a Stages,
 }
 
 impl Checker<'_> {

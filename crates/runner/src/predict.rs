@@ -51,7 +51,8 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     variable: Option<String>,
     /// Steps before the network is used, in this order: largest_component, drop_isolated,
-    /// drop_self_loops, binarise, symmetrise=union, symmetrise=mean, symmetrise=max
+    /// drop_self_loops, threshold=0.1 (drops weaker links), binarise, symmetrise=union,
+    /// symmetrise=mean, symmetrise=max
     #[arg(long, value_name = "STEP", value_delimiter = ',')]
     prepare: Vec<String>,
     /// Shorter averages for the master stability function: a first look
@@ -68,18 +69,20 @@ pub struct Args {
 /// Predicts, writes the results folder and says in words what was found.
 pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
-    let text = experiment(args)?;
     // As if the file lay beside the network, whose name the results have.
     let file = args.network.with_extension("toml");
-    let plan = plan::of_text(&text, &file, args.quick)?;
+    let stages = Stages::new(&plan::id(&file)?);
+    let text = experiment(args, &stages)?;
     record::check_writable(&args.results)?;
+    let of_network = |problem: Problem| problem.renamed(&file, &args.network);
+    let plan = plan::of_text(&text, &file, args.quick, stages).map_err(of_network)?;
     check::warn(&plan);
-    let read = started.elapsed();
-    let stages = Stages::new(&plan.id);
-    let found = findings::find(&plan, &mut findings::Curves::default(), &stages)?;
-    let place = results::write(&plan, &found, Vec::new(), (started, &stages), &args.results)?;
+    let found = findings::find(&plan, &mut findings::Curves::default(), &plan.stages)
+        .map_err(of_network)?;
+    let took = || started.elapsed();
+    let place = results::write(&plan, &found, Vec::new(), took, &args.results)?;
     keep_experiment(&text, &place)?;
-    say!("{}", overview::of(&plan, &found, read).trim_end());
+    say!("{}", overview::of(&plan, &found).trim_end());
     say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
     say!("the same as an experiment file: {}", place.join(EXPERIMENT).display());
     Ok(())
@@ -95,7 +98,7 @@ fn keep_experiment(text: &str, place: &Path) -> Result<()> {
 }
 
 /// The experiment file that says what the options say.
-fn experiment(args: &Args) -> Result<String> {
+fn experiment(args: &Args, stages: &Stages) -> Result<String> {
     let network = args.network.canonicalize().map_err(|error| {
         Problem::from_error("the network cannot be opened", error).in_file(&args.network)
     })?;
@@ -128,7 +131,7 @@ fn experiment(args: &Args) -> Result<String> {
     if let Some(threshold) = args.threshold {
         document.insert("prediction".into(), table([("threshold", threshold.into())]));
     }
-    let reach = reach(model, (from, to))?;
+    let reach = reach(model, (from, to), stages)?;
     let sigma =
         table([("from", 0.0.into()), ("to", reach.into()), ("points", SIGMA_POINTS.into())]);
     document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
@@ -174,11 +177,14 @@ fn oscillator(text: &str) -> Result<(Value, Model)> {
     Ok((value, model))
 }
 
-/// `STEP` or `STEP=HOW` as an entry of `prepare`.
+/// `STEP`, `STEP=HOW` or `STEP=NUMBER` as an entry of `prepare`.
 fn preparation(step: &str) -> Result<Value> {
     Ok(match step.split_once('=') {
         None => step.into(),
-        Some((step, how)) => table([(step, how.into())]),
+        Some((step, how)) => {
+            let value = how.parse::<f64>().map_or_else(|_| how.into(), Value::from);
+            table([(step, value)])
+        }
     })
 }
 
@@ -187,7 +193,7 @@ fn components(model: Model) -> String {
 }
 
 /// How far the curve of Λ must reach.
-fn reach(model: Model, (from, to): (&str, &str)) -> Result<f64> {
+fn reach(model: Model, (from, to): (&str, &str), stages: &Stages) -> Result<f64> {
     let component = |name: &str| {
         model.components().iter().position(|known| *known == name).ok_or_else(|| {
             Problem::new(format!("`--coupling` names the component \"{name}\""))
@@ -197,7 +203,7 @@ fn reach(model: Model, (from, to): (&str, &str)) -> Result<f64> {
     let coupling = dynamics::Coupling { from: component(from)?, to: component(to)? };
     let node = msf::Node { model, coupling };
     let look = |progress: dynamics::Progress<'_>| msf::reach(&node, &FIRST_LOOK, 1, progress);
-    Stages::new("prediction")
+    stages
         .measured("first look at the msf", 16 * FIRST_LOOK.steps(), look)
         .map_err(|error| Problem::from_error("the master stability function", error))
 }

@@ -44,6 +44,16 @@ impl Problem {
         self
     }
 
+    /// The same where the file at fault goes by another name: what was made of options has none that
+    /// the user knows.
+    #[must_use]
+    pub fn renamed(mut self, from: &Path, to: &Path) -> Self {
+        if self.place.as_deref() == Some(&from.display().to_string()) {
+            self.place = Some(to.display().to_string());
+        }
+        self
+    }
+
     /// Marks what is no reason to stop the other experiments.
     #[must_use]
     pub fn left_out(mut self) -> Self {

@@ -2,11 +2,13 @@
 //! standard error is not a terminal. How long each stage took is kept.
 
 use std::cell::RefCell;
+use std::io::{Read, Seek, SeekFrom};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Shows the stages of one experiment.
+#[derive(Default)]
 pub struct Stages {
     id: String,
     took: RefCell<Vec<(String, Duration)>>,
@@ -17,9 +19,14 @@ impl Stages {
         Self { id: id.to_owned(), took: RefCell::default() }
     }
 
-    /// The stages so far, in order, with their times.
+    /// The stages so far, in order, with their times; what was done in parts is one stage.
     pub fn took(&self) -> Vec<(String, Duration)> {
         self.took.borrow().clone()
+    }
+
+    /// Time of all stages so far.
+    pub fn total(&self) -> Duration {
+        self.took.borrow().iter().map(|(_, took)| *took).sum()
     }
 
     /// Runs a stage whose length is not known beforehand.
@@ -54,7 +61,12 @@ impl Stages {
     fn timed<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
         let result = work();
-        self.took.borrow_mut().push((stage.to_owned(), started.elapsed()));
+        let elapsed = started.elapsed();
+        let mut took = self.took.borrow_mut();
+        match took.iter_mut().find(|(name, _)| name == stage) {
+            Some((_, so_far)) => *so_far += elapsed,
+            None => took.push((stage.to_owned(), elapsed)),
+        }
         result
     }
 
@@ -65,5 +77,25 @@ impl Stages {
         bar.set_prefix(format!("{} {stage}", self.id));
         bar.enable_steady_tick(Duration::from_millis(200));
         bar
+    }
+}
+
+/// A source that reports the bytes taken from it.
+pub struct Watched<'a, R> {
+    pub source: R,
+    pub progress: dynamics::Progress<'a>,
+}
+
+impl<R: Read> Read for Watched<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let n_bytes = self.source.read(buffer)?;
+        (self.progress)(n_bytes as u64);
+        Ok(n_bytes)
+    }
+}
+
+impl<R: Seek> Seek for Watched<'_, R> {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        self.source.seek(to)
     }
 }

@@ -10,6 +10,9 @@ use graph::Network;
 
 use crate::plan::Plan;
 
+/// Bytes that are hashed at a time: many links at once take a tenth of the time.
+const HASHED_BYTES: usize = 1 << 16;
+
 /// The `provenance` of a summary. The only part of it that may differ between two equal runs.
 #[derive(Serialize)]
 pub struct Provenance {
@@ -17,7 +20,7 @@ pub struct Provenance {
     /// Commit of eigensync that the program was built from; `+` when files were changed since.
     pub commit: &'static str,
     pub seed: u64,
-    /// SHA-256 of the experiment as parsed, its shortening, and the network's links.
+    /// SHA-256 of the experiment as parsed, its shortening, and the hash of the network's links.
     pub plan_hash: String,
     /// Vector instructions the processor has; no result depends on them.
     pub host_features: Vec<&'static str>,
@@ -27,22 +30,30 @@ pub struct Provenance {
     pub wall_time_s: f64,
     /// Of this, what each stage took.
     pub stages_s: IndexMap<String, f64>,
+    /// Most memory that the process has held so far, which may have run other experiments before;
+    /// none where the system does not say.
+    pub peak_memory_bytes: Option<u64>,
 }
 
 impl Provenance {
     /// Of a run that took so long in all and in its stages.
-    pub fn new(plan: &Plan, (took, stages): (Duration, &[(String, Duration)])) -> Self {
+    pub fn new(
+        plan: &Plan,
+        links_hash: &str,
+        (took, stages): (Duration, &[(String, Duration)]),
+    ) -> Self {
         let seconds = |time: Duration| (time.as_secs_f64() * 1e3).round() / 1e3;
         Self {
             version: env!("CARGO_PKG_VERSION"),
             commit: env!("EIGENSYNC_COMMIT"),
             seed: plan.experiment.seed,
-            plan_hash: plan_hash(plan),
+            plan_hash: plan_hash(plan, links_hash),
             host_features: host_features(),
             instruction_set: plan.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
             wall_time_s: seconds(took),
             stages_s: stages.iter().map(|(name, time)| (name.clone(), seconds(*time))).collect(),
+            peak_memory_bytes: peak_memory(),
         }
     }
 }
@@ -50,26 +61,35 @@ impl Provenance {
 /// SHA-256 of the links and weights of a network, in node order.
 pub fn links_hash(network: &Network) -> String {
     let mut hash = Sha256::new();
-    add_links(&mut hash, network);
+    let mut bytes = Vec::new();
+    for (row, links) in network.adjacency().outer_iterator().enumerate() {
+        for (col, weight) in links.iter() {
+            bytes.extend((row as u64).to_le_bytes());
+            bytes.extend((col as u64).to_le_bytes());
+            bytes.extend(weight.to_le_bytes());
+        }
+        if bytes.len() >= HASHED_BYTES {
+            hash.update(&bytes);
+            bytes.clear();
+        }
+    }
+    hash.update(&bytes);
     text(hash)
 }
 
-fn plan_hash(plan: &Plan) -> String {
+fn plan_hash(plan: &Plan, links_hash: &str) -> String {
     let mut hash = Sha256::new();
     hash.update(plan.written.to_string());
     hash.update(plan.shortened.to_le_bytes());
-    add_links(&mut hash, &plan.network);
+    hash.update(links_hash);
     text(hash)
 }
 
-fn add_links(hash: &mut Sha256, network: &Network) {
-    for (row, links) in network.adjacency().outer_iterator().enumerate() {
-        for (col, weight) in links.iter() {
-            hash.update((row as u64).to_le_bytes());
-            hash.update((col as u64).to_le_bytes());
-            hash.update(weight.to_le_bytes());
-        }
-    }
+/// Most memory that this process has held, as Linux counts it; none elsewhere.
+pub fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
 }
 
 fn text(hash: Sha256) -> String {

@@ -1,8 +1,9 @@
-//! The results folder of one run: `summary.json`, tables of everything plotted, the figure. Written
-//! beside its place and renamed when whole, so that nothing unfinished ever looks finished.
+//! `summary.json`: a run in numbers. `record/states` has the predicted states, `record/folder` the
+//! folder in which it is written.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+mod folder;
+mod states;
+
 use std::time::Duration;
 
 use serde::Serialize;
@@ -12,12 +13,11 @@ use crate::agreement::Agreement;
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::problem::{Problem, Result};
 use crate::provenance::{Provenance, links_hash};
-use crate::simulated::{Onset, OverSeeds, completed};
+use crate::simulated::{OverSeeds, completed};
 
-/// Up to this many nodes a summary names the nodes of every cluster.
-const LISTED_NODES: usize = 5000;
+pub use folder::{Folder, check_writable};
+pub use states::StateRecord;
 
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
 #[derive(Serialize)]
@@ -109,21 +109,6 @@ pub struct CriticalRecord {
 }
 
 #[derive(Serialize)]
-pub struct StateRecord {
-    pub epsilon: (f64, Option<f64>),
-    pub unstable_modes: Vec<usize>,
-    /// Number of clusters of two nodes or more, and of nodes in none.
-    pub n_clusters: usize,
-    pub n_alone: usize,
-    /// These clusters, for networks of up to 5000 nodes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clusters: Option<Vec<Vec<String>>>,
-    /// From which ε on the simulation shows these clusters; none without simulation or clusters.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub simulated_onset: Option<Onset>,
-}
-
-#[derive(Serialize)]
 pub struct SimulationRecord {
     pub epsilon: f64,
     /// `completed`, `escaped`, or both counted.
@@ -174,19 +159,20 @@ pub fn summarise(
     took: (Duration, &[(String, Duration)]),
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
+    let links_hash = links_hash(network);
     Summary {
         id: plan.id.clone(),
         title: plan.experiment.title.clone(),
         source: plan.experiment.source.clone(),
         shortened: plan.shortened,
         network: NetworkRecord {
-            links_hash: links_hash(network),
             preparation: plan.preparation.iter().map(step_record).collect(),
             groups: network.groups().len(),
             nodes: network.n_nodes(),
             links: network.n_links(),
-            components: network.components().len(),
+            components: plan.n_components,
             isolated_nodes: network.isolated_nodes().len(),
+            links_hash: links_hash.clone(),
         },
         eigenvalues: spectrum.eigenvalues.clone(),
         spectrum: SpectrumRecord {
@@ -205,10 +191,10 @@ pub fn summarise(
         },
         msf: msf_record(findings),
         critical_couplings: critical_records(findings),
-        cascade: state_records(plan, findings),
+        cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
         claims,
-        provenance: Provenance::new(plan, took),
+        provenance: Provenance::new(plan, &links_hash, took),
         experiment: plan.written.clone(),
     }
 }
@@ -259,24 +245,6 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
         stable_above: critical.stable_above,
     };
     findings.critical.iter().map(record).collect()
-}
-
-fn state_records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
-    let record = |state: &clustering::State| {
-        let clusters = state.clusters.nontrivial();
-        let simulated = findings.simulated.as_ref();
-        let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
-        let observed = simulated.filter(|_| !clusters.is_empty() && has_pairs);
-        StateRecord {
-            epsilon: state.epsilon,
-            unstable_modes: state.unstable_modes.iter().map(|mode| mode + 1).collect(),
-            n_clusters: clusters.len(),
-            n_alone: plan.network.n_nodes() - clusters.iter().map(Vec::len).sum::<usize>(),
-            clusters: (plan.network.n_nodes() <= LISTED_NODES).then(|| named(&clusters, plan)),
-            simulated_onset: observed.map(|simulated| simulated.onset(&clusters)),
-        }
-    };
-    findings.cascade.iter().map(record).collect()
 }
 
 fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord> {
@@ -331,80 +299,4 @@ fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
 fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {
     let labels = labelled(clusters, &plan.network).into_iter();
     labels.map(|cluster| cluster.into_iter().map(str::to_owned).collect()).collect()
-}
-
-/// Sees to it that there is a folder for results that can be written to, before hours are spent on
-/// what could not be kept. The file made as a trial has no name, so that nothing of it can stay.
-pub fn check_writable(results: &Path) -> Result<()> {
-    fs::create_dir_all(results)
-        .and_then(|()| tempfile::tempfile_in(results))
-        .map(drop)
-        .map_err(|error| Problem::from_error("cannot be written to", error).in_file(results))
-}
-
-/// A results folder in the making.
-pub struct Folder {
-    making: tempfile::TempDir,
-    place: PathBuf,
-}
-
-impl Folder {
-    /// Starts the folder `results/<id>` and removes what killed runs of it have left.
-    pub fn start(results: &Path, id: &str) -> Result<Self> {
-        let failed = |error: std::io::Error| {
-            Problem::from_error("cannot be written to", error).in_file(results)
-        };
-        fs::create_dir_all(results).map_err(failed)?;
-        let prefix = format!(".{id}.unfinished-");
-        for entry in fs::read_dir(results).map_err(failed)?.flatten() {
-            if entry.file_name().to_string_lossy().starts_with(&prefix) {
-                fs::remove_dir_all(entry.path()).map_err(failed)?;
-            }
-        }
-        let making =
-            tempfile::Builder::new().prefix(&prefix).tempdir_in(results).map_err(failed)?;
-        Ok(Self { making, place: results.join(id) })
-    }
-
-    /// Writes one file of the folder.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<()> {
-        fs::write(self.making.path().join(name), content).map_err(|error| {
-            Problem::from_error("cannot be written", error).in_file(&self.place.join(name))
-        })
-    }
-
-    /// Writes a table: a header and rows of fields.
-    pub fn write_table(
-        &self,
-        name: &str,
-        header: &[String],
-        rows: impl IntoIterator<Item = Vec<String>>,
-    ) -> Result<()> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        let records = std::iter::once(header.to_vec()).chain(rows);
-        for record in records {
-            table.write_record(&record).expect("a row has as many fields as the header");
-        }
-        self.write(name, table.into_inner().expect("memory takes every byte"))
-    }
-
-    /// Puts the whole folder in its place, in exchange for an older one.
-    pub fn finish(self) -> Result<PathBuf> {
-        let Self { making, place } = self;
-        let failed = |error: std::io::Error| {
-            Problem::from_error("cannot be put in place", error).in_file(&place)
-        };
-        let whole = making.keep();
-        // Named like an unfinished folder, so that a run killed right here is cleaned up after.
-        let mut aside = whole.clone().into_os_string();
-        aside.push("-replaced");
-        if place.exists() {
-            fs::rename(&place, &aside).map_err(failed)?;
-        }
-        fs::rename(&whole, &place).map_err(failed)?;
-        if Path::new(&aside).exists() {
-            fs::remove_dir_all(&aside).map_err(failed)?;
-        }
-        Ok(place)
-    }
 }

@@ -1,16 +1,16 @@
 //! Everything a run writes: the summary, the tables, the figure.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::Duration;
 
 use dynamics::{Errors, Estimate};
 
+use crate::cascade_files;
 use crate::claims::Claim;
 use crate::drawing;
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
-use crate::progress::Stages;
 use crate::record::{Folder, summarise};
 use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
@@ -18,21 +18,17 @@ use crate::spec::FigureKind;
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
 
-/// Writes the results folder and gives its place.
+/// Writes the results folder and gives its place; `took` says how long the run has taken when asked.
 pub fn write(
     plan: &Plan,
     findings: &Findings,
     claims: Vec<Claim>,
-    (started, stages): (Instant, &Stages),
+    took: impl FnOnce() -> Duration,
     results: &Path,
 ) -> Result<PathBuf> {
+    let stages = &plan.stages;
     let folder = Folder::start(results, &plan.id)?;
-    write_spectrum(&folder, plan, findings)?;
-    write_msf(&folder, findings)?;
-    if let Some(simulated) = &findings.simulated {
-        write_sweep(&folder, plan, simulated)?;
-    }
-    write_matrices(&folder, plan, findings)?;
+    stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
     let failed = |error: &dyn std::fmt::Display| {
         Problem::from_error("the figure cannot be drawn", error).in_file(&plan.file)
     };
@@ -43,12 +39,22 @@ pub fn write(
     })?;
     folder.write("figure.png", png)?;
     folder.write("figure.svg", svg)?;
-    let summary = summarise(plan, findings, claims, (started.elapsed(), &stages.took()));
+    let summary = summarise(plan, findings, claims, (took(), &stages.took()));
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;
     folder.write("summary.json", json + "\n")?;
     folder.finish()
+}
+
+fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
+    write_spectrum(folder, plan, findings)?;
+    write_msf(folder, findings)?;
+    cascade_files::write(folder, plan, findings)?;
+    if let Some(simulated) = &findings.simulated {
+        write_sweep(folder, plan, simulated)?;
+    }
+    write_matrices(folder, plan, findings)
 }
 
 fn write_spectrum(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
@@ -145,6 +151,6 @@ fn npy(n_nodes: usize, values: &[f64]) -> Vec<u8> {
 }
 
 /// The shortest text that reads back as the same number.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -9,7 +9,10 @@ use std::time::{Duration, Instant};
 use support::{Workplace, tiny};
 
 /// The files of a whole results folder.
-const WHOLE: [&str; 7] = [
+const WHOLE: [&str; 10] = [
+    "cascade.csv",
+    "cascade.nwk",
+    "clusters.csv",
     "eigenvectors.csv",
     "figure.png",
     "figure.svg",

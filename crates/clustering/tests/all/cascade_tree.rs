@@ -1,7 +1,8 @@
 //! The tree of the cascade: the paper's two networks, windows, and invariants.
 
 use clustering::{
-    CascadeTree, ClusterKind, ClusterRule, State, TreeEnd, TreeRow, cascade, merge_equal_clusters,
+    CascadeTree, ClusterKind, ClusterRule, State, StateLabels, TreeEnd, TreeRow, cascade,
+    merge_equal_clusters,
 };
 use graph::{CouplingMatrix, Normalization};
 use msf::{Interval, StableRegion};
@@ -137,7 +138,8 @@ fn clusters_of_the_power_grid_are_labelled_exact_and_accidents_are_not() {
         let states = cascade(&spectrum, &region(1.0, None), ClusterRule::Exact).unwrap();
         let mut tree = only(CascadeTree::of_each_run(&states, 1));
         let w = CouplingMatrix::new(&network, Normalization::Laplacian);
-        tree.label(&states, &spectrum, w.matrix().view(), 1e-9).unwrap();
+        let of = |state| StateLabels::of(state, &spectrum, w.matrix().view(), 1e-9).unwrap();
+        tree.label(&states, &states.iter().map(of).collect::<Vec<_>>());
         tree.rows().map(|row| (row.size, row.kind.unwrap())).collect::<Vec<_>>()
     };
     let nepal = labelled(include_str!("../../../../experiments/networks/nepal.edges"));
@@ -158,6 +160,7 @@ fn alive(tree: &CascadeTree, state: usize) -> Vec<(usize, usize)> {
 }
 
 fn check_tree(tree: &CascadeTree, states: &[State], smallest: usize) {
+    check_innermost(tree, states);
     for number in tree.states.clone() {
         let State { clusters, epsilon, .. } = &states[number];
         let listed: Vec<_> = clusters
@@ -201,5 +204,17 @@ proptest! {
         if rule == ClusterRule::Exact && window.1.is_none() {
             prop_assert_eq!(trees.len(), 1);
         }
+    }
+}
+
+/// Every node is in its innermost cluster, and in none of the clusters below it.
+fn check_innermost(tree: &CascadeTree, states: &[State]) {
+    let members: Vec<Vec<usize>> =
+        (0..tree.clusters.len()).map(|id| tree.members(states, id)).collect();
+    let innermost = tree.innermost(states);
+    for (node, &innermost) in innermost.iter().enumerate() {
+        let holds = |id: &usize| members[*id].contains(&node);
+        let of = (0..tree.clusters.len()).filter(holds);
+        assert_eq!(innermost, of.min_by_key(|&id| members[id].len()), "node {node}");
     }
 }

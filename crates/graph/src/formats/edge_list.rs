@@ -15,14 +15,16 @@
 //! order of first appearance. Text is UTF-8, with or without a byte order mark, lines end in LF or
 //! CRLF and are at most [`MAX_LINE_BYTES`](super::MAX_LINE_BYTES) long.
 
-use std::collections::HashMap;
 use std::io::Read;
 
 use thiserror::Error;
 
 use super::TextError;
 use super::fields::{Field, Fields};
+use super::labels::Labels;
+use super::plain::{Plain, plain};
 use super::text::{Lines, quoted};
+use crate::network::first_repeated;
 use crate::{GraphError, Network};
 
 /// Why an edge list could not be read. Lines and columns count from 1, columns in characters.
@@ -121,130 +123,125 @@ pub enum EdgeListError {
 
 /// Reads an undirected network from an edge list; the module describes the format.
 ///
-/// Keeps one line of text at a time. O(N + L log L) for N nodes and L links, the logarithm from
-/// the search for duplicates.
+/// Keeps one line of text at a time and 16 bytes a link. O(N log N + L log k) for N nodes and L
+/// links, at most k at a node.
 ///
 /// # Errors
 /// [`EdgeListError`], naming the first line at fault; duplicate links are looked for when every
 /// line has been read.
 pub fn read(source: impl Read) -> Result<Network, EdgeListError> {
-    let mut nodes = Nodes::default();
-    let mut links = Vec::new();
+    let mut file = File { nodes: Labels::default(), links: Vec::new(), runs: Vec::new() };
     let mut lines = Lines::new(source);
     let mut n_lines = 0;
     while let Some((line, text)) = lines.next_line()? {
         n_lines = line;
-        links.extend(read_line(line, text, &mut nodes)?);
+        let link = match file.plain_link(text)? {
+            None => file.link(line, text)?,
+            link => link,
+        };
+        if let Some(link) = link {
+            file.add(line, link);
+        }
     }
-    if nodes.labels.is_empty() {
+    if file.nodes.len() == 0 {
         return Err(EdgeListError::Empty { lines: n_lines });
     }
-    refuse_duplicates(&links, &nodes.labels)?;
-    let (labels, number) = nodes.numbered();
-    let links: Vec<_> = links.iter().map(|l| (number[l.from], number[l.to], l.weight)).collect();
-    Ok(Network::undirected(labels, &links)?)
+    file.network()
 }
 
-/// A link between nodes in order of first appearance.
-struct Link {
-    from: usize,
-    to: usize,
-    weight: f64,
-    line: usize,
+/// A link between nodes in order of first appearance, and its weight.
+type Link = (u32, u32, f64);
+
+/// What has been read.
+struct File {
+    nodes: Labels,
+    links: Vec<Link>,
+    /// Where links follow one another line by line: the first of each run, and its line.
+    runs: Vec<(usize, usize)>,
 }
 
-/// Nodes in order of first appearance.
-#[derive(Default)]
-struct Nodes {
-    labels: Vec<String>,
-    of_label: HashMap<String, usize>,
-}
+impl File {
+    /// The link of a line of the commonest form, in which nothing is wrong.
+    fn plain_link(&mut self, text: &str) -> Result<Option<Link>, EdgeListError> {
+        let Some(Plain { first, second, value }) = plain(text, true) else { return Ok(None) };
+        let weight = value.map_or(Ok(1.0), str::parse::<f64>).ok().filter(is_weight);
+        let Some(weight) = weight.filter(|_| first != second) else { return Ok(None) };
+        let [from, to] = [first, second].map(|number| self.nodes.node_of_integer(number));
+        Ok(Some((self.numbered(from)?, self.numbered(to)?, weight)))
+    }
 
-impl Nodes {
-    fn node(&mut self, label: &str) -> usize {
-        if let Some(&node) = self.of_label.get(label) {
-            return node;
+    /// The link of any line, if it has one.
+    fn link(&mut self, line: usize, text: &str) -> Result<Option<Link>, EdgeListError> {
+        let mut fields = Fields::new(line, text);
+        let Some(first) = fields.next_field()? else { return Ok(None) };
+        let from = self.node(&first)?;
+        let Some(second) = fields.next_field()? else { return Ok(None) };
+        let to = self.node(&second)?;
+        if from == to {
+            let (column, node) = (second.column(text), quoted(&second.text));
+            return Err(EdgeListError::SelfLoop { line, column, node });
         }
-        let node = self.labels.len();
-        self.labels.push(label.to_owned());
-        self.of_label.insert(label.to_owned(), node);
-        node
-    }
-
-    /// The labels in their final order, and the final number of each node.
-    fn numbered(self) -> (Vec<String>, Vec<usize>) {
-        let mut order: Vec<usize> = (0..self.labels.len()).collect();
-        let is_integer = |label: &String| label.bytes().all(|b| b.is_ascii_digit());
-        if self.labels.iter().all(is_integer) {
-            order.sort_by_key(|&node| numeric_order(&self.labels[node]));
+        let weight = match fields.next_field()? {
+            Some(field) => weight(line, text, &field)?,
+            None => 1.0,
+        };
+        if let Some(fourth) = fields.next_field()? {
+            let (column, found) = (fourth.column(text), quoted(&fourth.text));
+            return Err(EdgeListError::TooManyColumns { line, column, found });
         }
-        let mut number = vec![0; order.len()];
-        let mut labels = self.labels;
-        let sorted = order
-            .iter()
-            .enumerate()
-            .map(|(new, &old)| {
-                number[old] = new;
-                std::mem::take(&mut labels[old])
-            })
-            .collect();
-        (sorted, number)
+        Ok(Some((from, to, weight)))
+    }
+
+    fn node(&mut self, field: &Field<'_>) -> Result<u32, EdgeListError> {
+        let node = self.nodes.node(&field.text);
+        self.numbered(node)
+    }
+
+    fn numbered(&self, node: Option<u32>) -> Result<u32, EdgeListError> {
+        Ok(node.ok_or(GraphError::TooManyNodes { n_nodes: self.nodes.len() + 1 })?)
+    }
+
+    fn add(&mut self, line: usize, link: Link) {
+        let next = self.runs.last().map(|&(first, line)| line + self.links.len() - first);
+        if next != Some(line) {
+            self.runs.push((self.links.len(), line));
+        }
+        self.links.push(link);
+    }
+
+    fn network(self) -> Result<Network, EdgeListError> {
+        let Self { nodes, mut links, runs } = self;
+        let (labels, number) = nodes.numbered();
+        for (from, to, _) in &mut links {
+            (*from, *to) = (number[*from as usize], number[*to as usize]);
+        }
+        let line = |link: usize| {
+            let (first, line) = runs[runs.partition_point(|&(first, _)| first <= link) - 1];
+            line + link - first
+        };
+        Network::of_distinct_ends(labels, &links).map_err(|error| match error {
+            GraphError::DuplicateLink { from, to } => {
+                let ends = links.iter().map(|&(from, to, _)| (from as usize, to as usize));
+                let [first, repeated] = first_repeated(ends).expect("a link that is repeated");
+                let (line, first_line) = (line(repeated), line(first));
+                let [from, to] = [from, to].map(|label| quoted(&label));
+                EdgeListError::DuplicateLink { line, first_line, from, to }
+            }
+            error => error.into(),
+        })
     }
 }
 
-/// A key that sorts strings of digits by value, however long, and equal values by their zeros.
-fn numeric_order(digits: &str) -> (usize, &str, usize) {
-    let significant = digits.trim_start_matches('0');
-    (significant.len(), significant, digits.len())
-}
-
-fn read_line(line: usize, text: &str, nodes: &mut Nodes) -> Result<Option<Link>, EdgeListError> {
-    let mut fields = Fields::new(line, text);
-    let Some(first) = fields.next_field()? else { return Ok(None) };
-    let from = nodes.node(&first.text);
-    let Some(second) = fields.next_field()? else { return Ok(None) };
-    let to = nodes.node(&second.text);
-    if from == to {
-        let (column, node) = (second.column(text), quoted(&second.text));
-        return Err(EdgeListError::SelfLoop { line, column, node });
-    }
-    let weight = match fields.next_field()? {
-        Some(field) => weight(line, text, &field)?,
-        None => 1.0,
-    };
-    if let Some(fourth) = fields.next_field()? {
-        let (column, found) = (fourth.column(text), quoted(&fourth.text));
-        return Err(EdgeListError::TooManyColumns { line, column, found });
-    }
-    Ok(Some(Link { from, to, weight, line }))
+fn is_weight(weight: &f64) -> bool {
+    weight.is_finite() && *weight > 0.0
 }
 
 fn weight(line: usize, text: &str, field: &Field<'_>) -> Result<f64, EdgeListError> {
     match field.text.parse::<f64>() {
-        Ok(weight) if weight.is_finite() && weight > 0.0 => Ok(weight),
+        Ok(weight) if is_weight(&weight) => Ok(weight),
         _ => {
             let (column, found) = (field.column(text), quoted(&field.text));
             Err(EdgeListError::BadWeight { line, column, found })
         }
-    }
-}
-
-/// Sorts by link and then line, so that a repetition stands beside what it repeats.
-fn refuse_duplicates(links: &[Link], labels: &[String]) -> Result<(), EdgeListError> {
-    let mut order: Vec<&Link> = links.iter().collect();
-    let ends = |l: &Link| (l.from.min(l.to), l.from.max(l.to));
-    order.sort_unstable_by_key(|l| (ends(l), l.line));
-    let repeated = order
-        .windows(2)
-        .filter(|pair| ends(pair[0]) == ends(pair[1]))
-        .min_by_key(|pair| pair[1].line);
-    match repeated {
-        None => Ok(()),
-        Some(pair) => Err(EdgeListError::DuplicateLink {
-            line: pair[1].line,
-            first_line: pair[0].line,
-            from: quoted(&labels[pair[1].from]),
-            to: quoted(&labels[pair[1].to]),
-        }),
     }
 }

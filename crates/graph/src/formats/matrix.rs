@@ -137,7 +137,7 @@ pub enum MatrixError {
 pub(super) struct MatrixBuilder {
     rows: Rows,
     block: Range<usize>,
-    entries: Vec<(usize, usize, f64)>,
+    entries: Vec<(u32, u32, f64)>,
 }
 
 impl MatrixBuilder {
@@ -168,7 +168,8 @@ impl MatrixBuilder {
         if self.entries.len() == MAX_ENTRIES {
             return Err(MatrixError::TooManyEntries);
         }
-        let (row, column) = (row - self.block.start, column - self.block.start);
+        // The size of the matrix has been checked: its nodes are numbered in 32 bits.
+        let (row, column) = ((row - self.block.start) as u32, (column - self.block.start) as u32);
         self.entries.push(match self.rows {
             Rows::Driven => (row, column, value),
             Rows::Driving => (column, row, value),
@@ -206,6 +207,6 @@ impl MatrixBuilder {
             }
             (_, error) => error,
         };
-        Ok(RawNetwork::new(labels, &self.entries, directed).map_err(as_in_file)?)
+        Ok(RawNetwork::of_checked(labels, &self.entries, directed).map_err(as_in_file)?)
     }
 }

@@ -6,10 +6,12 @@ pub mod dense;
 pub mod edge_list;
 mod fields;
 pub mod graphml;
+mod labels;
 pub mod matlab;
 mod matrix;
 pub mod matrix_market;
 pub mod numpy;
+mod plain;
 mod text;
 pub mod tvb;
 

@@ -1,7 +1,7 @@
 //! Where the network of an experiment comes from: files, generators, preparation, groups.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Read, Seek};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,8 @@ use graph::prepare::{Report, Selection, Step, Symmetrise, apply};
 use graph::{Group, Network, RawNetwork};
 
 use super::Checker;
-use crate::problem::Result;
+use crate::problem::{Problem, Result};
+use crate::progress::Watched;
 use crate::spec::{
     CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RowsSpec,
     StepSpec, SymmetriseSpec,
@@ -20,11 +21,20 @@ use crate::spec::{
 impl Checker<'_> {
     /// The network, prepared and grouped, with what each step of preparation did.
     pub(super) fn source(&self) -> Result<(Network, Vec<Report>)> {
-        let mut raw = match &self.experiment.network {
+        let stages = self.stages;
+        let raw = match &self.experiment.network {
             NetworkSpec::File(spec) => self.file(spec)?,
-            NetworkSpec::Communities(spec) => self.communities(spec)?.into(),
-            NetworkSpec::Hierarchical(spec) => self.hierarchical(spec)?.into(),
+            NetworkSpec::Communities(spec) => {
+                stages.unmeasured("generation", || self.communities(spec))?.into()
+            }
+            NetworkSpec::Hierarchical(spec) => {
+                stages.unmeasured("generation", || self.hierarchical(spec))?.into()
+            }
         };
+        stages.unmeasured("preparation", || self.prepared(raw))
+    }
+
+    fn prepared(&self, mut raw: RawNetwork) -> Result<(Network, Vec<Report>)> {
         let mut reports = Vec::new();
         for (number, spec) in self.experiment.prepare.iter().enumerate() {
             let refuse = |message: String| self.problem(&format!("prepare[{number}]"), message);
@@ -34,12 +44,32 @@ impl Checker<'_> {
             raw = next;
             reports.push(report);
         }
-        let network = raw.into_network().map_err(|error| {
-            self.problem("network", format!("is no undirected network: {error}")).hint(
-                "`prepare` has steps such as { symmetrise = \"mean\" } and \"drop_self_loops\"",
-            )
-        })?;
+        let is_directed = raw.is_directed();
+        let network = raw.into_network().map_err(|error| self.unsupported(is_directed, &error))?;
         Ok((self.grouped(network)?, reports))
+    }
+
+    /// What is said of a network that is directed, signed, or linked to itself.
+    fn unsupported(&self, is_directed: bool, error: &graph::GraphError) -> Problem {
+        let (kind, steps, step) = match error {
+            graph::GraphError::NotSymmetric { .. } if is_directed => (
+                "is directed, but predictions are for undirected networks: weights above zero, the \
+                 same in both directions, and no self-loops",
+                "a step of preparation can make both directions equal by their mean, max or union",
+                "symmetrise=mean",
+            ),
+            graph::GraphError::SelfLoop { .. } => {
+                ("has self-loops", "a step of preparation takes them away", "drop_self_loops")
+            }
+            _ => (
+                "is no undirected network of weights above zero",
+                "a step of preparation can drop links whose weights are too small",
+                "threshold=0",
+            ),
+        };
+        self.problem("network", format!("{kind}: {error}")).hint(format!(
+            "{steps}: `--prepare {step}` of `eigensync predict`, or `prepare` in an experiment file"
+        ))
     }
 
     fn beside(&self, path: &Path) -> PathBuf {
@@ -49,6 +79,14 @@ impl Checker<'_> {
     fn file(&self, spec: &FileSpec) -> Result<RawNetwork> {
         let key = "network.file.path";
         let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
+        let n_bytes = source.metadata().map_or(0, |metadata| metadata.len());
+        self.stages.measured("reading", n_bytes, |progress| {
+            self.read(spec, &path, BufReader::new(Watched { source, progress }))
+        })
+    }
+
+    fn read(&self, spec: &FileSpec, path: &Path, source: impl Read + Seek) -> Result<RawNetwork> {
+        let key = "network.file.path";
         let layout = self.layout(spec)?;
         let variable = spec.variable.as_deref();
         let failed = |error: &dyn std::fmt::Display| {
@@ -85,12 +123,7 @@ impl Checker<'_> {
 
     /// Opens a file that an experiment names. One that is fetched by a command and is not there leaves
     /// the experiment out.
-    fn open(
-        &self,
-        key: &str,
-        path: &Path,
-        fetched_by: Option<&str>,
-    ) -> Result<(PathBuf, BufReader<File>)> {
+    fn open(&self, key: &str, path: &Path, fetched_by: Option<&str>) -> Result<(PathBuf, File)> {
         let path = self.beside(path);
         let named =
             |message: String| self.problem(key, format!("names {}{message}", path.display()));
@@ -105,7 +138,7 @@ impl Checker<'_> {
         if path.is_dir() {
             return Err(named(", which is a folder; expected a file of links".into()));
         }
-        Ok((path, BufReader::new(source)))
+        Ok((path, source))
     }
 
     fn layout(&self, spec: &FileSpec) -> Result<Layout> {

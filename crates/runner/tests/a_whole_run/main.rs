@@ -1,7 +1,9 @@
 //! Whole runs through the command: exit status, the files of the results folder, sameness of results,
 //! comparison with golden outputs, and networks that make trouble.
 
+mod cascade;
 mod comparison;
+mod odd_networks;
 mod predict;
 mod results;
 #[path = "../support/mod.rs"]

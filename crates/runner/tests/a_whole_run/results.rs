@@ -28,8 +28,19 @@ fn a_run_whose_claims_hold_ends_with_status_0_and_leaves_a_whole_folder() {
         "{}",
         answer.stdout
     );
-    let files = ["eigenvectors.csv", "figure.png", "figure.svg", "msf.csv", "spectrum.csv"];
-    assert_eq!(place.names("results/tiny"), [&files[..], &["summary.json", "sweep.csv"]].concat());
+    let files = [
+        "cascade.csv",
+        "cascade.nwk",
+        "clusters.csv",
+        "eigenvectors.csv",
+        "figure.png",
+        "figure.svg",
+        "msf.csv",
+        "spectrum.csv",
+        "summary.json",
+        "sweep.csv",
+    ];
+    assert_eq!(place.names("results/tiny"), files);
     assert_eq!(place.names("results"), ["tiny"]);
 }
 
@@ -66,6 +77,11 @@ fn a_summary_has_the_keys_that_others_rely_on() {
         "/provenance/host_features",
         "/provenance/instruction_set",
         "/provenance/wall_time_s",
+        "/provenance/stages_s/reading",
+        "/provenance/stages_s/clusters",
+        "/cascade/1/exact_tolerance",
+        "/cascade/1/labels/1/kind",
+        "/cascade/1/largest_deviation",
     ] {
         assert!(summary.pointer(pointer).is_some_and(|value| !value.is_null()), "{pointer}");
     }
@@ -93,6 +109,13 @@ fn tables_have_a_column_for_each_quantity_and_a_row_for_each_point() {
     check("spectrum", "mode lambda residual", 6);
     check("eigenvectors", "node v1 v2 v3 v4 v5 v6", 6);
     check("msf", "sigma Lambda standard_error", 7);
+    check(
+        "cascade",
+        "cluster parent tree nodes first_node modes epsilon_from epsilon_to critical_coupling kind \
+         spread deviation",
+        5,
+    );
+    check("clusters", "tree node cluster alone_below", 6);
     check(
         "sweep",
         "epsilon seed outcome error_1_to_2 error_2_to_2 error_3_to_2 error_4_to_2 error_5_to_2 \

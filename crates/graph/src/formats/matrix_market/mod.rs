@@ -14,12 +14,15 @@
 //! Source: Boisvert, Pozo & Remington, "The Matrix Market exchange formats: initial design",
 //! NISTIR 5935 (1996).
 
+mod words;
+
 use std::io::Read;
-use std::str::FromStr;
 
 use thiserror::Error;
 
+use self::words::words;
 use super::matrix::MatrixBuilder;
+use super::plain::{Plain, plain};
 use super::text::{Lines, quoted};
 use super::{Layout, MatrixError, TextError};
 use crate::RawNetwork;
@@ -219,7 +222,7 @@ struct File<R> {
 impl<R: Read> File<R> {
     /// The next line that is neither blank nor a comment.
     fn next_line(&mut self) -> Result<Option<(usize, &str)>, TextError> {
-        self.lines.next_where(|text| !text.trim().is_empty() && !text.starts_with('%'))
+        self.lines.next_where(|text| !text.trim_start().is_empty() && !text.starts_with('%'))
     }
 
     fn size(&mut self) -> Result<Size, MatrixMarketError> {
@@ -259,11 +262,17 @@ impl<R: Read> File<R> {
             let Some((line, text)) = self.next_line()? else {
                 return Err(self.too_few(size.entries, found));
             };
-            let words = words(line, text, count, expected)?;
-            let (row, column) = (words[0].index(size.rows)?, words[1].index(size.columns)?);
-            let value = match header.field {
-                Field::Pattern => 1.0,
-                field => words[2].value(field, builder.takes(row, column))?,
+            let (row, column, value) = match plain_entry(text, header.field, size) {
+                Some(entry) => entry,
+                None => {
+                    let words = words(line, text, count, expected)?;
+                    let (row, column) = (words[0].index(size.rows)?, words[1].index(size.columns)?);
+                    let value = match header.field {
+                        Field::Pattern => 1.0,
+                        field => words[2].value(field, builder.takes(row, column))?,
+                    };
+                    (row, column, value)
+                }
             };
             builder.add(row, column, value)?;
             if header.is_symmetric && row != column {
@@ -314,6 +323,18 @@ impl<R: Read> File<R> {
     }
 }
 
+/// The entry of a line of the commonest form, in which nothing is wrong: row and column from 0.
+fn plain_entry(text: &str, field: Field, size: &Size) -> Option<(usize, usize, f64)> {
+    let Plain { first, second, value } = plain(text, false)?;
+    let is_within = (1..=size.rows).contains(&first) && (1..=size.columns).contains(&second);
+    let value = match (field, value) {
+        (Field::Pattern, None) => 1.0,
+        (Field::Real, Some(value)) => value.parse().ok().filter(|value: &f64| value.is_finite())?,
+        _ => return None,
+    };
+    is_within.then(|| (as_index(first - 1), as_index(second - 1), value))
+}
+
 /// Entries of a symmetric matrix on and below its diagonal.
 fn triangle(rows: u64) -> u128 {
     u128::from(rows) * (u128::from(rows) + 1) / 2
@@ -322,79 +343,4 @@ fn triangle(rows: u64) -> u128 {
 /// Rows and columns fit: the size of a square matrix, or of one with a block, has been checked.
 fn as_index(index: u64) -> usize {
     usize::try_from(index).unwrap_or(usize::MAX)
-}
-
-/// A value of a line.
-#[derive(Clone, Copy, Default)]
-struct Word<'a> {
-    line: usize,
-    text: &'a str,
-    offset: usize,
-    word: &'a str,
-}
-
-/// The values of a line, of which there must be `count`, three at most.
-fn words<'a>(
-    line: usize,
-    text: &'a str,
-    count: usize,
-    expected: &'static str,
-) -> Result<[Word<'a>; 3], MatrixMarketError> {
-    let mut words = [Word::default(); 3];
-    let mut found = 0;
-    for word in text.split_whitespace() {
-        let offset = word.as_ptr().addr() - text.as_ptr().addr();
-        if let Some(place) = words.get_mut(found) {
-            *place = Word { line, text, offset, word };
-        }
-        found += 1;
-    }
-    match found == count {
-        true => Ok(words),
-        false => Err(MatrixMarketError::WrongCount { line, expected, found }),
-    }
-}
-
-impl Word<'_> {
-    fn size(&self) -> Result<u64, MatrixMarketError> {
-        self.parse("a whole number")
-    }
-
-    /// An index from 0, written from 1.
-    fn index(&self, size: u64) -> Result<usize, MatrixMarketError> {
-        let found: u64 = self.parse("an index")?;
-        if (1..=size).contains(&found) {
-            return Ok(as_index(found - 1));
-        }
-        let (line, column) = (self.line, self.column());
-        Err(MatrixMarketError::IndexOutOfRange { line, column, size, found })
-    }
-
-    /// A value; it must be finite where the network will hold it.
-    fn value(&self, field: Field, is_taken: bool) -> Result<f64, MatrixMarketError> {
-        if field == Field::Integer {
-            // Whole numbers beyond 2^53 round as they do in every program that computes with them.
-            return Ok(self.parse::<i128>("a whole number")? as f64);
-        }
-        let expected = "a finite number";
-        let value: f64 = self.parse(expected)?;
-        match value.is_finite() || !is_taken {
-            true => Ok(value),
-            false => Err(self.bad_number(expected)),
-        }
-    }
-
-    fn parse<T: FromStr>(&self, expected: &'static str) -> Result<T, MatrixMarketError> {
-        self.word.parse().map_err(|_| self.bad_number(expected))
-    }
-
-    fn bad_number(&self, expected: &'static str) -> MatrixMarketError {
-        let (line, column, found) = (self.line, self.column(), quoted(self.word));
-        MatrixMarketError::BadNumber { line, column, expected, found }
-    }
-
-    /// Where the value begins, in characters from 1.
-    fn column(&self) -> usize {
-        self.text[..self.offset].chars().count() + 1
-    }
 }

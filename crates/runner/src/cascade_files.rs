@@ -1,0 +1,143 @@
+//! The predicted cascade in files that others read: `cascade.csv`, a row for each cluster and the one
+//! it came from; `clusters.csv`, a row for each node and the smallest of these that it is ever in;
+//! `cascade.nwk`, the same trees in Newick's format, as programs for phylogenies read it.
+//!
+//! Clusters are those of two nodes or more, numbered from 1 through all trees.
+//!
+//! Source of the format: J. Felsenstein, "The Newick tree format" (1986); a branch is as long as the
+//! range of ε in which its cluster holds.
+
+use std::io::BufWriter;
+
+use clustering::{CascadeTree, TreeCluster};
+
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::problem::Result;
+use crate::record::Folder;
+use crate::results::number;
+
+const COLUMNS: [&str; 12] = [
+    "cluster",
+    "parent",
+    "tree",
+    "nodes",
+    "first_node",
+    "modes",
+    "epsilon_from",
+    "epsilon_to",
+    "critical_coupling",
+    "kind",
+    "spread",
+    "deviation",
+];
+
+/// Writes the three files.
+pub fn write(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
+    let rows = numbered(findings).flat_map(|(number, first, tree)| {
+        let row =
+            move |(place, cluster)| row(plan, findings, [number, first + place], first, cluster);
+        tree.clusters.iter().enumerate().map(row)
+    });
+    folder.write_table("cascade.csv", &COLUMNS.map(str::to_owned), rows)?;
+    folder.write_through("clusters.csv", |out| write_nodes(out, plan, findings))?;
+    folder.write("cascade.nwk", newick(findings))
+}
+
+/// The trees, each with its number from 1 and the number of its first cluster.
+fn numbered(findings: &Findings) -> impl Iterator<Item = (usize, usize, &CascadeTree)> {
+    let mut first = 1;
+    (1..).zip(&findings.trees).map(move |(number, tree)| {
+        let numbered = (number, first, tree);
+        first += tree.clusters.len();
+        numbered
+    })
+}
+
+fn row(
+    plan: &Plan,
+    findings: &Findings,
+    [tree, cluster]: [usize; 2],
+    first: usize,
+    of: &TreeCluster,
+) -> Vec<String> {
+    let optional = |value: Option<f64>| value.map_or_else(String::new, number);
+    let modes = findings.cascade[of.states.start].unstable_modes.len();
+    vec![
+        cluster.to_string(),
+        of.parent.map_or_else(String::new, |parent| (first + parent).to_string()),
+        tree.to_string(),
+        of.size.to_string(),
+        plan.network.labels()[of.first_node].clone(),
+        modes.to_string(),
+        number(of.epsilon.0),
+        optional(of.epsilon.1),
+        optional(of.splits.then_some(of.epsilon.0)),
+        of.label.map_or("", |label| label.kind.name()).to_owned(),
+        optional(of.label.map(|label| label.spread)),
+        optional(of.label.map(|label| label.deviation)),
+    ]
+}
+
+/// The innermost cluster of every node, and below which ε the node is alone.
+fn write_nodes(
+    out: &mut BufWriter<std::fs::File>,
+    plan: &Plan,
+    findings: &Findings,
+) -> std::io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(["tree", "node", "cluster", "alone_below"])?;
+    for (number, first, tree) in numbered(findings) {
+        let number = number.to_string();
+        let texts: Vec<[String; 2]> = tree
+            .clusters
+            .iter()
+            .enumerate()
+            .map(|(place, cluster)| [(first + place).to_string(), self::number(cluster.epsilon.0)])
+            .collect();
+        let innermost = tree.innermost(&findings.cascade);
+        for (label, innermost) in plan.network.labels().iter().zip(innermost) {
+            let [cluster, splits] = innermost.map_or(["", ""], |place| {
+                let [cluster, splits] = &texts[place];
+                [cluster, if tree.clusters[place].splits { splits } else { "" }]
+            });
+            table.write_record([&number[..], label, cluster, splits])?;
+        }
+    }
+    table.flush()
+}
+
+/// A line for each cluster that came from no other.
+fn newick(findings: &Findings) -> String {
+    let mut text = String::new();
+    for (_, first, tree) in numbered(findings) {
+        let is_root = |place: &usize| tree.clusters[*place].parent.is_none();
+        for root in (0..tree.clusters.len()).filter(is_root) {
+            add_newick(&mut text, tree, first, root);
+            text.push_str(";\n");
+        }
+    }
+    text
+}
+
+/// Adds a cluster behind its parts: `(parts)number:length`. Without recursion, since a cascade may
+/// have as many generations as there are modes.
+fn add_newick(text: &mut String, tree: &CascadeTree, first: usize, root: usize) {
+    let mut open = vec![(root, 0)];
+    while let Some((place, n_done)) = open.pop() {
+        let cluster = &tree.clusters[place];
+        if let Some(part) = cluster.children.clone().nth(n_done) {
+            text.push(if n_done == 0 { '(' } else { ',' });
+            open.extend([(place, n_done + 1), (part, 0)]);
+            continue;
+        }
+        if n_done > 0 {
+            text.push(')');
+        }
+        text.push_str(&(first + place).to_string());
+        if let (from, Some(to)) = cluster.epsilon {
+            text.push(':');
+            text.push_str(&number(to - from));
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The predicted states in a summary: their ranges of ε, their clusters, and which of these are exact.
+
+use clustering::{ClusterKind, ClusterLabel, State, StateLabels};
+use serde::Serialize;
+
+use super::named;
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::simulated::Onset;
+
+/// Up to this many nodes a summary names the nodes of every cluster.
+const LISTED_NODES: usize = 5000;
+
+#[derive(Serialize)]
+pub struct StateRecord {
+    pub epsilon: (f64, Option<f64>),
+    pub unstable_modes: Vec<usize>,
+    /// Number of clusters of two nodes or more, and of nodes in none.
+    pub n_clusters: usize,
+    pub n_alone: usize,
+    /// Of the clusters of two nodes or more.
+    pub n_exact: usize,
+    pub n_approximate: usize,
+    /// How far apart nodes of an exact cluster may be in the unstable subspace.
+    pub exact_tolerance: f64,
+    /// Whether the nodes of each cluster have the same total weight to every cluster, up to rounding.
+    pub equitable: bool,
+    /// By how much the most unequal of them differ, relative to their strength.
+    pub largest_deviation: f64,
+    /// These clusters, for networks of up to 5000 nodes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clusters: Option<Vec<Vec<String>>>,
+    /// Their labels, in the same order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Vec<LabelRecord>>,
+    /// From which ε on the simulation shows these clusters; none without simulation or clusters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulated_onset: Option<Onset>,
+}
+
+/// Whether a cluster is exact, and how far it is from that.
+#[derive(Serialize)]
+pub struct LabelRecord {
+    /// `exact` or `approximate`.
+    pub kind: &'static str,
+    /// Largest δe of its first node and any other.
+    pub spread: f64,
+    /// Largest difference of its nodes' total weights to one cluster, relative to their strength.
+    pub deviation: f64,
+}
+
+impl From<&ClusterLabel> for LabelRecord {
+    fn from(label: &ClusterLabel) -> Self {
+        let ClusterLabel { kind, spread, deviation } = *label;
+        Self { kind: kind.name(), spread, deviation }
+    }
+}
+
+pub fn records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
+    let labelled = findings.cascade.iter().zip(&findings.labels);
+    labelled.map(|(state, labels)| record(plan, findings, state, labels)).collect()
+}
+
+fn record(plan: &Plan, findings: &Findings, state: &State, labels: &StateLabels) -> StateRecord {
+    let is_listed = plan.network.n_nodes() <= LISTED_NODES;
+    let clusters = is_listed.then(|| state.clusters.nontrivial());
+    let n_alone = labels.count(ClusterKind::Single);
+    let n_clusters = labels.labels.len() - n_alone;
+    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+    let observed = findings.simulated.as_ref().filter(|_| n_clusters > 0 && has_pairs);
+    let shared = labels.labels.iter().filter(|label| label.kind != ClusterKind::Single);
+    StateRecord {
+        epsilon: state.epsilon,
+        unstable_modes: state.unstable_modes.iter().map(|mode| mode + 1).collect(),
+        n_clusters,
+        n_alone,
+        n_exact: labels.count(ClusterKind::Exact),
+        n_approximate: labels.count(ClusterKind::Approximate),
+        exact_tolerance: labels.exact_tolerance,
+        equitable: labels.equitability.holds(),
+        largest_deviation: labels.equitability.largest_deviation(),
+        labels: is_listed.then(|| shared.map(LabelRecord::from).collect()),
+        simulated_onset: observed
+            .zip(clusters.as_ref())
+            .map(|(simulated, clusters)| simulated.onset(clusters)),
+        clusters: clusters.map(|clusters| named(&clusters, plan)),
+    }
+}

@@ -1,0 +1,125 @@
+//! Networks that are not what most are, through `eigensync predict`: each is answered with a result or
+//! with what would be one.
+
+use serde_json::json;
+
+use crate::support::{Answer, Workplace};
+
+/// The answer to a prediction for a network file with more options.
+fn answer(place: &Workplace, file: &str, options: &[&str], status: i32) -> Answer {
+    let lorenz = ["--oscillator", "lorenz", "--coupling", "x:y", "--quick"];
+    place.answer(&[&["predict", file][..], &lorenz, options].concat()).with_status(status)
+}
+
+/// The same for the text of a network of its own.
+fn of(file: &str, text: &str, options: &[&str], status: i32) -> (Workplace, Answer) {
+    let place = Workplace::new();
+    place.write(file, text);
+    let answer = answer(&place, file, options, status);
+    (place, answer)
+}
+
+#[track_caller]
+fn check_says(said: &str, expected: &[&str]) {
+    for expected in expected {
+        assert!(said.contains(expected), "{expected} in:\n{said}");
+    }
+}
+
+const DIRECTED: &str = "%%MatrixMarket matrix coordinate real general\n3 3 4\n\
+                        1 2 1\n2 1 1\n2 3 0.5\n3 1 2\n";
+
+#[test]
+fn a_directed_network_is_refused_with_what_is_supported_and_how_to_get_there() {
+    let (place, refused) = of("net.mtx", DIRECTED, &[], 2);
+    let expected = [
+        "is directed, but predictions are for undirected networks",
+        "weights above zero, the same in both directions, and no self-loops",
+        "net.mtx: ",
+        "row `2`, column `3`",
+        "--prepare symmetrise=mean",
+    ];
+    check_says(&refused.stderr, &expected);
+    assert!(place.names("results").is_empty());
+    let accepted = answer(&place, "net.mtx", &["--prepare", "symmetrise=mean"], 0);
+    check_says(&accepted.stdout, &["3 nodes, 3 links, connected"]);
+}
+
+#[test]
+fn a_matrix_that_could_be_directed_and_is_not_needs_no_preparation() {
+    let both = "%%MatrixMarket matrix coordinate pattern general\n2 2 2\n1 2\n2 1\n";
+    check_says(&of("net.mtx", both, &[], 0).1.stdout, &["2 nodes, 1 links, connected"]);
+}
+
+#[test]
+fn self_loops_and_weights_below_zero_are_refused_with_the_step_that_helps() {
+    let symmetric = "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n2 1 1\n3 1 1\n";
+    let (place, loops) = of("net.mtx", &format!("{symmetric}2 2 1\n"), &[], 2);
+    check_says(&loops.stderr, &["has self-loops", "node `2`", "drop_self_loops"]);
+    answer(&place, "net.mtx", &["--prepare", "drop_self_loops"], 0);
+    let (place, negative) = of("net.mtx", &format!("{symmetric}3 2 -1\n"), &[], 2);
+    check_says(&negative.stderr, &["of weights above zero", "-1", "--prepare threshold=0"]);
+    let without = answer(&place, "net.mtx", &["--prepare", "threshold=0"], 0);
+    check_says(&without.stdout, &["3 nodes, 2 links, connected"]);
+}
+
+#[test]
+fn one_node_is_no_network_to_synchronise() {
+    let (_, refused) = of("net.edges", "alone\n", &[], 2);
+    check_says(&refused.stderr, &["has one node", "two or more"]);
+}
+
+#[test]
+fn two_nodes_are_one_cluster_until_their_only_mode_is_unstable() {
+    let (place, said) = of("net.edges", "a b\n", &["--matrix", "laplacian"], 0);
+    check_says(&said.stdout, &["2 nodes, 1 links, connected", "-2\n"]);
+    let states = place.json("results/net/summary.json")["cascade"].clone();
+    let clusters: Vec<_> = states.as_array().unwrap().iter().map(|s| &s["clusters"]).collect();
+    assert_eq!(clusters, [&json!([["a", "b"]]), &json!([])]);
+}
+
+#[test]
+fn isolated_nodes_are_alone_at_every_coupling() {
+    let (place, said) = of("net.edges", "1 2\n2 3\n3 1\n4\n5\n", &[], 0);
+    check_says(&said.stderr, &["2 of 5 nodes have no links (4, 5)", "3 components"]);
+    let states = place.json("results/net/summary.json")["cascade"].clone();
+    assert_eq!(states[0]["clusters"], json!([["1", "2", "3"]]));
+    assert!(states.as_array().unwrap().iter().all(|state| state["n_alone"].as_u64() >= Some(2)));
+}
+
+#[test]
+fn modes_that_are_all_zero_are_refused_with_the_number_of_components() {
+    let pairs: String = (0..8).map(|k| format!("{} {}\n", 2 * k, 2 * k + 1)).collect();
+    let (place, refused) = of("net.edges", &pairs, &["--modes", "3"], 2);
+    check_says(&refused.stderr, &["8 components", "largest_component"]);
+    let accepted = answer(&place, "net.edges", &["--modes", "9"], 0);
+    check_says(&accepted.stdout, &["16 nodes, 8 links, 8 components"]);
+    answer(&place, "net.edges", &["--prepare", "largest_component"], 0);
+}
+
+#[test]
+fn weights_over_twelve_orders_of_magnitude_keep_their_clusters() {
+    // Two pairs of strong links, as alike as they can be, and a weak link between them.
+    let (place, said) = of("net.edges", "1 2 1e6\n2 3 1e-6\n3 4 1e6\n", &[], 0);
+    check_says(&said.stdout, &["4 nodes, 3 links, connected"]);
+    let spectrum = place.json("results/net/summary.json")["eigenvalues"].clone();
+    // Rows of the normalized matrix sum to zero, so that λ_2 is −1e-12, to six digits.
+    let lambda_2 = spectrum[1].as_f64().unwrap();
+    assert!(lambda_2.abs() < 1e-9, "{lambda_2}");
+    check_says(&said.stderr, &["connected", "2 modes", "eigenvalue 0"]);
+    let states = place.json("results/net/summary.json")["cascade"].clone();
+    assert_eq!(states[0]["clusters"], json!([["1", "2"], ["3", "4"]]));
+}
+
+#[test]
+fn weights_over_twelve_orders_of_magnitude_that_can_be_told_apart_are() {
+    // A star: its weakest leaf is coupled as strongly as any other by the normalized matrix.
+    let star: String = (0..13).map(|k| format!("hub leaf{k} 1e{}\n", k - 6)).collect();
+    let (place, said) = of("net.edges", &star, &["--modes", "14"], 0);
+    check_says(&said.stdout, &["14 nodes, 13 links, connected"]);
+    let summary = place.json("results/net/summary.json");
+    // λ = 0, −1 (N − 2 times) and −2.
+    assert_eq!(summary["spectrum"]["multiple"], json!([[2, 13]]));
+    let last = summary["eigenvalues"][13].as_f64().unwrap();
+    assert!((last + 2.0).abs() < 1e-9, "{last}");
+}
