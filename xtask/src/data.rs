@@ -57,24 +57,37 @@ struct Places {
 /// Brings every file and gives 0 when all are there, 1 when some could not be had.
 pub fn run(args: &Args) -> Result<u8, String> {
     let places = Places::of_this_project();
-    let mut missing = 0;
-    for file in &FILES {
+    let missing = FILES.iter().filter(|file| {
         let outcome = if args.check { places.check(file) } else { places.bring(file) };
-        match outcome {
-            Ok(said) => println!("{}: {said}", file.name),
-            Err(why) => {
-                missing += 1;
-                println!("{}: not here ({}): {why}", file.name, file.content);
-            }
-        }
-    }
+        !said(file, &outcome)
+    });
+    let missing = missing.count();
     if missing > 0 {
-        println!(
-            "\nhint: download what is missing from the address named above into a folder, and name \
-             that folder in EIGENSYNC_DATA"
-        );
+        println!("\n{HINT}");
     }
     Ok(u8::from(missing > 0))
+}
+
+/// Brings the files that are not here yet, for a task that can go on without them.
+pub fn bring_missing() {
+    let places = Places::of_this_project();
+    let absent = FILES.iter().filter(|file| places.check(file).is_err());
+    let refused = absent.filter(|file| !said(file, &places.bring(file))).count();
+    if refused > 0 {
+        println!("{HINT}; the experiments that need it are left out\n");
+    }
+}
+
+const HINT: &str = "hint: download what is missing from the address named above into a folder, \
+    and name that folder in EIGENSYNC_DATA";
+
+/// Says how it went with one file; gives whether it is here.
+fn said(file: &DataFile, outcome: &Result<String, String>) -> bool {
+    match outcome {
+        Ok(how) => println!("{}: {how}", file.name),
+        Err(why) => println!("{}: not here ({}): {why}", file.name, file.content),
+    }
+    outcome.is_ok()
 }
 
 impl Places {

@@ -3,6 +3,7 @@
 //! Depends on no numerical crate, so that it starts at once on a new machine and can install what
 //! the others need before they are built.
 
+mod bench;
 mod compare;
 mod data;
 mod reproduce;
@@ -31,6 +32,8 @@ enum Task {
     Data(data::Args),
     /// Run every test of the workspace
     Test(test::Args),
+    /// Run the benchmarks and record them with the machine; --peers also measures other tools
+    Bench(bench::Args),
 }
 
 fn main() -> ExitCode {
@@ -39,6 +42,7 @@ fn main() -> ExitCode {
         Task::Compare(args) => compare::run(&args),
         Task::Data(args) => data::run(&args),
         Task::Test(args) => test::run(&args),
+        Task::Bench(args) => bench::run(&args),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

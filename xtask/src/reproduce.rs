@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
-use crate::{cargo, root, setup, status};
+use crate::{cargo, data, root, setup, status};
 
 /// Options of `cargo xtask reproduce`.
 #[derive(clap::Args)]
@@ -23,6 +24,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<u8, String> {
     setup::ensure()?;
     let experiments = experiments(&args.only)?;
+    data::bring_missing();
     eprintln!("building eigensync (a few minutes the first time)");
     let built = status(cargo().args(["build", "--release", "--package", "runner"]))?;
     if built != 0 {
@@ -34,12 +36,13 @@ pub fn run(args: &Args) -> Result<u8, String> {
     if args.quick {
         eigensync.arg("--quick");
     }
+    let started = SystemTime::now();
     let code = status(&mut eigensync)?;
     if args.bless {
         if code > 1 {
             return Err("nothing was blessed, because not all experiments could be run".into());
         }
-        experiments.iter().try_for_each(|experiment| bless(experiment))?;
+        experiments.iter().try_for_each(|experiment| bless(experiment, started))?;
     }
     Ok(code)
 }
@@ -66,11 +69,16 @@ fn experiments(only: &[String]) -> Result<Vec<PathBuf>, String> {
     Ok(ids.iter().map(|id| Path::new("experiments").join(id).with_extension("toml")).collect())
 }
 
-/// Copies what golden outputs consist of from the results of an experiment.
-fn bless(experiment: &Path) -> Result<(), String> {
+/// Copies what golden outputs consist of from the results of an experiment, unless it was left out.
+fn bless(experiment: &Path, started: SystemTime) -> Result<(), String> {
     let id = experiment.file_stem().expect("an experiment file has a name");
     let golden = root().join("experiments/golden").join(id);
     let result = root().join("results").join(id).join("summary.json");
+    let written = fs::metadata(&result).and_then(|file| file.modified());
+    if written.map_or(true, |written| written < started) {
+        println!("{} was left out, and is not blessed", id.display());
+        return Ok(());
+    }
     fs::create_dir_all(&golden)
         .and_then(|()| fs::copy(&result, golden.join("summary.json")))
         .map_err(|error| format!("{} cannot be blessed: {error}", result.display()))?;

@@ -100,10 +100,11 @@ fn connected_groups(one: &Partition, other: &Partition) -> Vec<Vec<Overlap>> {
     let overlaps = overlaps(one, other);
     let mut sets = DisjointSets::new(one.n_clusters() + other.n_clusters());
     for &(a, b, _) in &overlaps {
-        sets.join(a, one.n_clusters() + b);
+        sets.join(a as u32, (one.n_clusters() + b) as u32);
     }
     let roots = sets.roots();
-    let groups = Partition::from_marks(&overlaps.iter().map(|o| roots[o.0]).collect::<Vec<_>>());
+    let groups: Vec<usize> = overlaps.iter().map(|o| roots[o.0] as usize).collect();
+    let groups = Partition::from_marks(&groups);
     groups.clusters().into_iter().map(|g| g.into_iter().map(|o| overlaps[o]).collect()).collect()
 }
 

@@ -13,9 +13,10 @@ use std::ops::Range;
 use msf::StableRegion;
 use spectra::Spectrum;
 
-use crate::distance::{check_synchronous_mode, transverse};
+use crate::distance::{check_finite, check_shapes, check_synchronous_mode, transverse};
+use crate::exact::refined_clusters;
 use crate::linkage::clusters_of_each;
-use crate::{ClusteringError, EigenvectorDistance, Partition};
+use crate::{ClusteringError, Partition};
 
 /// Couplings closer than this, relatively, are one: they differ by rounding.
 const SAME_COUPLING: f64 = 1e-12;
@@ -23,9 +24,9 @@ const SAME_COUPLING: f64 = 1e-12;
 /// What makes a cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClusterRule {
-    /// δe_ij = 0 up to the solver's accuracy: [`EigenvectorDistance::exact_clusters`].
+    /// δe_ij = 0 up to the solver's accuracy: [`crate::EigenvectorDistance::exact_clusters`].
     Exact,
-    /// Single linkage of δe_ij at a threshold: [`EigenvectorDistance::clusters_within`].
+    /// Single linkage of δe_ij at a threshold: [`crate::EigenvectorDistance::clusters_within`].
     Threshold(f64),
 }
 
@@ -63,14 +64,17 @@ impl State {
 /// # Errors
 /// - [`ClusteringError::PartialSpectrum`] for a partial spectrum where the stable set is bounded
 ///   above or empty, and [`ClusteringError::NoTransverseMode`] for one of nothing but zeros.
-/// - [`ClusteringError::NoSynchronousMode`], [`ClusteringError::SpectrumTooRough`] and
-///   [`ClusteringError::BadThreshold`] as [`EigenvectorDistance`] has them.
+/// - [`ClusteringError::NoSynchronousMode`], [`ClusteringError::NotFinite`] (of any mode),
+///   [`ClusteringError::SpectrumTooRough`] and [`ClusteringError::BadThreshold`] as
+///   [`crate::EigenvectorDistance`] has them.
 pub fn cascade(
     spectrum: &Spectrum,
     stable: &StableRegion,
     rule: ClusterRule,
 ) -> Result<Vec<State>, ClusteringError> {
+    check_shapes(spectrum);
     check_synchronous_mode(spectrum)?;
+    check_finite(spectrum, &(1..spectrum.eigenvalues.len()).collect::<Vec<_>>())?;
     let eigenspaces = Eigenspace::of(spectrum);
     let lowest = lowest_coupling(spectrum, &eigenspaces, stable)?;
     let stretches = stretches(&eigenspaces, stable, lowest);
@@ -203,21 +207,25 @@ fn stretches(eigenspaces: &[Eigenspace], stable: &StableRegion, lowest: f64) -> 
     stretches
 }
 
-/// [`EigenvectorDistance::exact_clusters`] of every stretch.
+/// [`crate::EigenvectorDistance::exact_clusters`] of every stretch.
+///
+/// Further unstable modes only split exact clusters: each is looked for within those of the stretch
+/// above, so that none comes back by rounding, and not at all where none is left.
 fn exact_clusters(
     spectrum: &Spectrum,
     stretches: &[Stretch],
 ) -> Result<Vec<Partition>, ClusteringError> {
     let n_nodes = spectrum.eigenvectors[0].len();
+    let one_cluster = Partition::one_cluster(n_nodes);
     let mut found: Vec<Partition> = Vec::new();
     for (number, stretch) in stretches.iter().enumerate() {
-        // Further unstable modes only split exact clusters: where none is left, none comes back.
-        let is_settled = found.last().is_some_and(|above| above.n_clusters() == n_nodes)
-            && are_among(&stretches[number - 1].unstable_modes, &stretch.unstable_modes);
-        found.push(if is_settled {
-            Partition::singletons(n_nodes)
+        let modes = &stretch.unstable_modes;
+        let only_splits = |_: &&Partition| are_among(&stretches[number - 1].unstable_modes, modes);
+        let above = found.last().filter(only_splits).unwrap_or(&one_cluster);
+        found.push(if above.n_clusters() == n_nodes {
+            above.clone()
         } else {
-            EigenvectorDistance::new(spectrum, &stretch.unstable_modes)?.exact_clusters()?
+            refined_clusters(spectrum, modes, above)?
         });
     }
     Ok(found)

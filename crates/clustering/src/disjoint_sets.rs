@@ -1,41 +1,47 @@
 //! Disjoint sets under union, by size and with path halving (Tarjan & van Leeuwen, J. ACM 31, 245
 //! (1984)), and many such families side by side over the same elements.
 
+/// Disjoint sets of fewer than 2³² elements.
 pub(crate) struct DisjointSets {
-    parent: Vec<usize>,
-    size: Vec<usize>,
+    parent: Vec<u32>,
+    size: Vec<u32>,
 }
 
 impl DisjointSets {
+    /// # Panics
+    /// If there are 2³² elements or more.
     pub(crate) fn new(n: usize) -> Self {
-        Self { parent: (0..n).collect(), size: vec![1; n] }
+        let end = u32::try_from(n).expect("fewer than 2^32 elements");
+        Self { parent: (0..end).collect(), size: vec![1; n] }
     }
 
     /// The representative of the set that holds `i`.
-    pub(crate) fn root(&mut self, mut i: usize) -> usize {
-        while self.parent[i] != i {
-            self.parent[i] = self.parent[self.parent[i]];
-            i = self.parent[i];
+    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
+        loop {
+            let parent = self.parent[i as usize];
+            if parent == i {
+                return i;
+            }
+            let grandparent = self.parent[parent as usize];
+            self.parent[i as usize] = grandparent;
+            i = grandparent;
         }
-        i
     }
 
-    pub(crate) fn are_joined(&mut self, i: usize, j: usize) -> bool {
-        self.root(i) == self.root(j)
-    }
-
-    pub(crate) fn join(&mut self, i: usize, j: usize) {
+    pub(crate) fn join(&mut self, i: u32, j: u32) {
         let (i, j) = (self.root(i), self.root(j));
         if i != j {
-            let (small, large) = if self.size[i] < self.size[j] { (i, j) } else { (j, i) };
-            self.parent[small] = large;
-            self.size[large] += self.size[small];
+            let is_smaller = self.size[i as usize] < self.size[j as usize];
+            let (small, large) = if is_smaller { (i, j) } else { (j, i) };
+            self.parent[small as usize] = large;
+            self.size[large as usize] += self.size[small as usize];
         }
     }
 
-    /// The representative of every element.
-    pub(crate) fn roots(mut self) -> Vec<usize> {
-        (0..self.parent.len()).map(|i| self.root(i)).collect()
+    /// The representative of every element, itself an element.
+    pub(crate) fn roots(mut self) -> Vec<u32> {
+        let end = self.parent.len() as u32;
+        (0..end).map(|i| self.root(i)).collect()
     }
 }
 
@@ -79,9 +85,9 @@ impl DisjointSetFamilies {
     }
 
     /// The representative of every element in one family.
-    pub(crate) fn roots(&mut self, family: usize) -> Vec<usize> {
+    pub(crate) fn roots(&mut self, family: usize) -> Vec<u32> {
         let n = self.parent.len() / self.n_families;
-        (0..n).map(|i| self.root(family, i) as usize).collect()
+        (0..n).map(|i| self.root(family, i)).collect()
     }
 
     fn root(&mut self, family: usize, i: usize) -> u32 {

@@ -23,21 +23,15 @@ use std::ops::Range;
 
 use spectra::Spectrum;
 
+use crate::cell_tree::Points;
+use crate::exact::clusters_of_rows;
+use crate::linkage_tree::clusters_within_groups;
+use crate::metric::{Block, Metric};
+use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition};
 
-/// Below this, components are equal whatever the residuals say: no solver in double precision is
-/// more accurate.
-const ROUNDING: f64 = 1e-12;
-
-/// Room in the bound on eigenvectors for what the residuals of a non-symmetric (normalized) matrix
-/// leave open, the condition of its similarity to a symmetric one.
-const SAFETY: f64 = 10.0;
-
-/// Smallest gap, relative to the largest |λ| computed, that enters the bound.
-const SMALLEST_GAP: f64 = 1e-4;
-
-/// Largest uncertainty for exact clusters, relative to a typical component 1/√N.
-const LARGEST_UNCERTAINTY: f64 = 1e-3;
+/// Nodes whose components are copied at a time: few enough to stay in cache.
+const COPIED_NODES: usize = 256;
 
 /// How much less than 1 the constant vector's share in the first eigenspace may be.
 const CONSTANT_SHARE: f64 = 1e-6;
@@ -49,17 +43,9 @@ pub struct EigenvectorDistance {
     n_modes: usize,
     /// Components of node i in all unstable eigenspaces, row i of shape (N, width).
     rows: Vec<f64>,
-    width: usize,
-    blocks: Vec<Block>,
+    /// An eigenspace a block, of factor c_d / m.
+    metric: Metric,
     exact_tolerance: f64,
-}
-
-/// One eigenspace.
-#[derive(Clone, Debug)]
-struct Block {
-    columns: Range<usize>,
-    /// c_d / m.
-    factor: f64,
 }
 
 impl EigenvectorDistance {
@@ -71,8 +57,9 @@ impl EigenvectorDistance {
     ///
     /// # Errors
     /// [`ClusteringError::SynchronousMode`], [`ClusteringError::ModeOutOfRange`],
-    /// [`ClusteringError::PartOfEigenspace`], and [`ClusteringError::NoSynchronousMode`] for a
-    /// spectrum whose first eigenspace lacks the vector of equal components.
+    /// [`ClusteringError::PartOfEigenspace`], [`ClusteringError::NotFinite`], and
+    /// [`ClusteringError::NoSynchronousMode`] for a spectrum whose first eigenspace lacks the vector
+    /// of equal components.
     ///
     /// # Panics
     /// If the parts of the spectrum differ in length.
@@ -80,14 +67,15 @@ impl EigenvectorDistance {
         check_shapes(spectrum);
         check_synchronous_mode(spectrum)?;
         let chosen = chosen_eigenspaces(spectrum, modes)?;
+        check_finite(spectrum, modes)?;
         let spaces: Vec<_> = chosen.iter().map(|&s| spectrum.eigenspaces[s].clone()).collect();
         let n_modes = spaces.iter().map(|space| transverse(space).len()).sum();
+        let nodes: Vec<usize> = (0..spectrum.eigenvectors[0].len()).collect();
         Ok(Self {
-            n_nodes: spectrum.eigenvectors[0].len(),
+            n_nodes: nodes.len(),
             n_modes,
-            rows: interleaved(spectrum, &spaces),
-            width: spaces.iter().map(ExactSizeIterator::len).sum(),
-            blocks: blocks(&spaces, n_modes),
+            rows: interleaved(spectrum, &spaces, &nodes),
+            metric: metric(&spaces, n_modes),
             exact_tolerance: exact_tolerance(spectrum, &chosen),
         })
     }
@@ -104,7 +92,7 @@ impl EigenvectorDistance {
 
     /// δe_ij, dimensionless.
     pub fn between(&self, i: usize, j: usize) -> f64 {
-        self.between_up_to(i, j, f64::INFINITY)
+        self.metric.distance_up_to(f64::INFINITY, self.row(i), self.row(j))
     }
 
     /// δe_ij of all pairs, shape (N, N), row by row. O(N² m / 2).
@@ -139,71 +127,83 @@ impl EigenvectorDistance {
     /// δe_ij vanishes exactly when ‖P(e_i − e_j)‖ does, and the latter is what the residuals bound:
     /// single linkage of it at [`Self::exact_tolerance`].
     ///
+    /// O(N log N) for few modes.
+    ///
     /// # Errors
     /// [`ClusteringError::SpectrumTooRough`] when that tolerance exceeds 1e-3/√N.
     pub fn exact_clusters(&self) -> Result<Partition, ClusteringError> {
+        let one_cluster = Partition::one_cluster(self.n_nodes);
         if self.n_modes == 0 {
-            return Ok(Partition::one_cluster(self.n_nodes));
+            return Ok(one_cluster);
         }
-        let tolerance = self.exact_tolerance;
-        let limit = LARGEST_UNCERTAINTY / (self.n_nodes as f64).sqrt();
-        if tolerance.is_nan() || tolerance > limit {
-            return Err(ClusteringError::SpectrumTooRough { tolerance, limit });
-        }
-        // A unit vector's component never exceeds the norm, so the window misses no pair.
-        let unit = 1.0 / (self.width as f64).sqrt();
-        let coordinate: Vec<f64> =
-            (0..self.n_nodes).map(|i| self.row(i).iter().sum::<f64>() * unit).collect();
-        let is_linked = |i, j| norm_of_difference(self.row(i), self.row(j)) <= tolerance;
-        Ok(Partition::single_linkage_along(&coordinate, widened(tolerance), is_linked))
+        check_tolerance(self.exact_tolerance, self.n_nodes)?;
+        let width = self.metric.width();
+        Ok(clusters_of_rows(&self.rows, width, self.exact_tolerance, &one_cluster))
     }
 
     /// Clusters by single linkage of δe_ij ≤ `threshold`; chains link.
     ///
+    /// O(N log N) for few modes; for many, or where much of the network is only just not linked, up
+    /// to O(N² m).
+    ///
     /// # Errors
     /// [`ClusteringError::BadThreshold`] when it is negative or not finite.
     pub fn clusters_within(&self, threshold: f64) -> Result<Partition, ClusteringError> {
+        let clusters = self.clusters_with_work(threshold, &mut { usize::MAX })?;
+        Ok(clusters.expect("no limit to the work"))
+    }
+
+    /// The same if it takes no more than so many components to be looked at, which are taken off
+    /// `work`, otherwise None.
+    pub(crate) fn clusters_with_work(
+        &self,
+        threshold: f64,
+        work: &mut usize,
+    ) -> Result<Option<Partition>, ClusteringError> {
         check_threshold(threshold)?;
+        let one_cluster = Partition::one_cluster(self.n_nodes);
         if self.n_modes == 0 {
-            return Ok(Partition::one_cluster(self.n_nodes));
+            return Ok(Some(one_cluster));
         }
-        let is_linked = |i, j| self.between_up_to(i, j, threshold) <= threshold;
-        Ok(Partition::single_linkage_along(&self.coordinate(), widened(threshold), is_linked))
+        let points = Points { rows: &self.rows, metric: &self.metric };
+        Ok(clusters_within_groups(points, threshold, &one_cluster, work))
     }
 
-    /// How many differences of components [`Self::clusters_within`] may take.
-    pub(crate) fn work_within(&self, threshold: f64) -> usize {
-        Partition::pairs_along(&self.coordinate(), widened(threshold)) * self.width
-    }
-
-    /// A coordinate of every node such that those of two nodes differ by no more than δe_ij.
+    /// How far the nodes of every cluster are from its first.
     ///
-    /// One component of each eigenspace's difference never exceeds its norm.
-    fn coordinate(&self) -> Vec<f64> {
-        let along = |i: usize| {
-            let row = self.row(i);
-            self.blocks.iter().map(|b| b.factor * row[b.columns.start]).sum()
-        };
-        (0..self.n_nodes).map(along).collect()
-    }
-
-    /// δe_ij if it is at most `limit`, otherwise some value between `limit` and δe_ij.
-    fn between_up_to(&self, i: usize, j: usize, limit: f64) -> f64 {
-        let (a, b) = (self.row(i), self.row(j));
-        let mut sum = 0.0;
-        for block in &self.blocks {
-            let columns = block.columns.clone();
-            sum += block.factor * norm_of_difference(&a[columns.clone()], &b[columns]);
-            if sum > limit {
-                break;
-            }
+    /// # Panics
+    /// If the partition is of other nodes.
+    pub(crate) fn spreads(&self, partition: &Partition) -> Vec<Spread> {
+        let (n_nodes, n_divided) = (self.n_nodes, partition.n_nodes());
+        assert_eq!(n_nodes, n_divided, "distances of {n_nodes} nodes, a partition of {n_divided}");
+        let is_known = check_tolerance(self.exact_tolerance, n_nodes).is_ok();
+        let euclidean = Metric::euclidean(self.metric.width());
+        let first_nodes = partition.first_nodes();
+        let mut spreads = vec![Spread { distance: 0.0, is_rounding: is_known }; first_nodes.len()];
+        for (node, &cluster) in partition.cluster_of().iter().enumerate() {
+            let (first, row) = (self.row(first_nodes[cluster]), self.row(node));
+            let Spread { distance, is_rounding } = &mut spreads[cluster];
+            *distance = distance.max(self.metric.distance_up_to(f64::INFINITY, first, row));
+            let is_near = |limit| euclidean.distance_up_to(limit, first, row) <= limit;
+            *is_rounding = *is_rounding && is_near(self.exact_tolerance);
         }
-        sum
+        spreads
     }
 
     fn row(&self, i: usize) -> &[f64] {
-        &self.rows[i * self.width..(i + 1) * self.width]
+        let width = self.metric.width();
+        &self.rows[i * width..][..width]
     }
+}
+
+/// How far the nodes of a cluster are from its first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spread {
+    /// Largest δe.
+    pub(crate) distance: f64,
+    /// Whether all are within [`EigenvectorDistance::exact_tolerance`] in the unstable subspace, and
+    /// that is small enough to tell.
+    pub(crate) is_rounding: bool,
 }
 
 /// c_d = d Γ(d/2) / (√π Γ((d+1)/2)): the mean of Σ_b |u_b · x| over orthonormal bases u_1 … u_d, for
@@ -292,69 +292,44 @@ pub(crate) fn chosen_eigenspaces(
     Ok(chosen)
 }
 
-/// The modes of these eigenspaces, node by node.
-fn interleaved(spectrum: &Spectrum, spaces: &[Range<usize>]) -> Vec<f64> {
-    let vectors: Vec<&Vec<f64>> =
-        spaces.iter().flat_map(|space| &spectrum.eigenvectors[space.clone()]).collect();
-    let n_nodes = spectrum.eigenvectors[0].len();
-    (0..n_nodes).flat_map(|i| vectors.iter().map(move |v| v[i])).collect()
-}
-
-fn blocks(spaces: &[Range<usize>], n_modes: usize) -> Vec<Block> {
-    let mut start = 0;
-    spaces
-        .iter()
-        .map(|space| {
-            let columns = start..start + space.len();
-            start = columns.end;
-            Block { columns, factor: mean_over_bases(transverse(space).len()) / n_modes as f64 }
-        })
-        .collect()
-}
-
-/// [`EigenvectorDistance::exact_tolerance`] for these eigenspaces.
-fn exact_tolerance(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
-    let spaces = &spectrum.eigenspaces;
-    let residual = chosen
-        .iter()
-        .flat_map(|&s| &spectrum.residuals[spaces[s].clone()])
-        .fold(0.0, |norm: f64, &r| norm.hypot(r));
-    let largest = spectrum.eigenvalues.last().map_or(0.0, |l| l.abs());
-    let gap = gap(spectrum, chosen).max(SMALLEST_GAP * largest);
-    // Written so that a residual that is not a number stays one, and 0/0 does not make one.
-    let error = if residual == 0.0 { 0.0 } else { residual / gap };
-    let bound = SAFETY * std::f64::consts::SQRT_2 * error;
-    if bound < ROUNDING { ROUNDING } else { bound }
-}
-
-/// Distance of the chosen eigenvalues to the other transverse ones; zero where it is unknown, with
-/// the next eigenvalue not computed, and infinite where there are no others. `chosen` ascends.
-fn gap(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
-    let spaces = &spectrum.eigenspaces;
-    let is_partial = spectrum.eigenvalues.len() < spectrum.eigenvectors[0].len();
-    let is_chosen = |space: usize| chosen.binary_search(&space).is_ok();
-    if is_partial && is_chosen(spaces.len() - 1) {
-        return 0.0;
-    }
-    let mut gap = f64::INFINITY;
-    for (upper, pair) in spaces.windows(2).enumerate() {
-        let is_boundary = is_chosen(upper) != is_chosen(upper + 1);
-        if is_boundary && !transverse(&pair[0]).is_empty() {
-            let (above, below) = (pair[0].end - 1, pair[1].start);
-            gap = gap.min(spectrum.eigenvalues[above] - spectrum.eigenvalues[below]);
+/// The components of these modes are numbers.
+pub(crate) fn check_finite(spectrum: &Spectrum, modes: &[usize]) -> Result<(), ClusteringError> {
+    for &mode in modes {
+        let components = &spectrum.eigenvectors[mode];
+        if let Some(node) = components.iter().position(|component| !component.is_finite()) {
+            return Err(ClusteringError::NotFinite { mode, node });
         }
     }
-    gap
+    Ok(())
 }
 
-pub(crate) fn norm_of_difference(a: &[f64], b: &[f64]) -> f64 {
-    match (a, b) {
-        ([a], [b]) => (a - b).abs(),
-        _ => a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt(),
+/// The components of these nodes in the modes of these eigenspaces, node by node.
+pub(crate) fn interleaved(
+    spectrum: &Spectrum,
+    spaces: &[Range<usize>],
+    nodes: &[usize],
+) -> Vec<f64> {
+    let vectors: Vec<&Vec<f64>> =
+        spaces.iter().flat_map(|space| &spectrum.eigenvectors[space.clone()]).collect();
+    let width = vectors.len();
+    let mut rows = vec![0.0; nodes.len() * width];
+    for (some, nodes) in nodes.chunks(COPIED_NODES).enumerate() {
+        let rows = &mut rows[some * COPIED_NODES * width..];
+        for (column, vector) in vectors.iter().enumerate() {
+            for (place, &node) in nodes.iter().enumerate() {
+                rows[place * width + column] = vector[node];
+            }
+        }
     }
+    rows
 }
 
-/// A window that rounding of the coordinates cannot make too narrow.
-fn widened(threshold: f64) -> f64 {
-    threshold * (1.0 + 1e-9) + 1e-14
+fn metric(spaces: &[Range<usize>], n_modes: usize) -> Metric {
+    let mut start = 0;
+    let block = |space: &Range<usize>| {
+        let columns = start..start + space.len();
+        start = columns.end;
+        Block { columns, factor: mean_over_bases(transverse(space).len()) / n_modes as f64 }
+    };
+    Metric { blocks: spaces.iter().map(block).collect() }
 }

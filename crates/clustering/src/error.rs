@@ -41,6 +41,14 @@ pub enum ClusteringError {
         /// Squared length of the projection of (1, …, 1)/√N onto the eigenspace.
         overlap: f64,
     },
+    /// An eigenvector with a component that is no number.
+    #[error("component {} of mode {} is not finite", node + 1, mode + 1)]
+    NotFinite {
+        /// The mode.
+        mode: usize,
+        /// The node.
+        node: usize,
+    },
     /// Eigenvectors too inaccurate to tell equal components from different ones.
     #[error(
         "eigenvectors are uncertain by {tolerance:e}, too much for exact clusters (limit \
@@ -76,6 +84,16 @@ pub enum ClusteringError {
     BadThreshold {
         /// The threshold.
         threshold: f64,
+    },
+    /// A weight of the coupling matrix that is no number.
+    #[error("the weight of the link from node {} to node {} is {weight}", column + 1, row + 1)]
+    WeightNotFinite {
+        /// The node that receives.
+        row: usize,
+        /// The node that sends.
+        column: usize,
+        /// The weight.
+        weight: f64,
     },
     /// A cluster or region names a node that does not exist.
     #[error("a cluster or region names node {}, but there are only {n_nodes} nodes", node + 1)]

@@ -1,6 +1,6 @@
 //! Which nodes synchronise, and when: the eigenvector distance δe_ij, the clusters it predicts, the
-//! cascade of predicted states over the coupling strength ε, regions under two thresholds, and how
-//! far two partitions or two distances agree.
+//! cascade of predicted states over the coupling strength ε and its tree, whether clusters are exact,
+//! regions under two thresholds, and how far two partitions or two distances agree.
 //!
 //! Integrates nothing and reads no files: it takes a [`spectra::Spectrum`] and a
 //! [`msf::StableRegion`]. Modes and nodes count from 0 here; mode 0, of eigenvalue λ_1 = 0, is the
@@ -9,18 +9,29 @@
 mod agreement;
 mod assignment;
 mod cascade;
+mod cascade_tree;
+mod cell_tree;
 mod correlation;
 mod disjoint_sets;
 mod distance;
+mod equitability;
 mod error;
+mod exact;
+mod label;
 mod linkage;
+mod linkage_tree;
+mod metric;
 mod partition;
 mod regions;
+mod tolerance;
 
 pub use agreement::{MaximumOverlap, adjusted_rand_index, maximum_overlap};
 pub use cascade::{ClusterRule, State, cascade, merge_equal_clusters};
+pub use cascade_tree::{CascadeTree, TreeCluster, TreeEnd, TreeRow};
 pub use correlation::{Correlation, correlation_of_pairs, pearson, spearman};
 pub use distance::{EigenvectorDistance, mean_over_bases};
+pub use equitability::{Equitability, equitable};
 pub use error::ClusteringError;
+pub use label::{ClusterKind, ClusterLabel, label_clusters};
 pub use partition::Partition;
 pub use regions::{RegionAgreement, RegionClusters, RegionDistances, RegionThresholds};

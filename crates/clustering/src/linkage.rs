@@ -19,24 +19,22 @@ use std::ops::Range;
 use spectra::Spectrum;
 
 use crate::disjoint_sets::DisjointSetFamilies;
-use crate::distance::{check_threshold, chosen_eigenspaces, norm_of_difference, transverse};
+use crate::distance::{check_threshold, chosen_eigenspaces, transverse};
+use crate::metric::Block;
 use crate::{ClusteringError, EigenvectorDistance, Partition, mean_over_bases};
 
 /// Nodes side by side in one panel.
 const LANES: usize = 8;
 
-/// A set of its own needs its components copied: so many copies take the time of one difference.
-/// Like the next one measured, and of no consequence but for the time.
-const COPIES: usize = 8;
-
-/// Sets of their own may take one difference for so many steps of the pass.
+/// Sets of their own may look at one component for so many steps of the pass: measured, and of no
+/// consequence but for the time.
 const STEPS: usize = 8;
 
 /// [`EigenvectorDistance::clusters_within`] for each of these sets of unstable modes.
 ///
-/// Sets are taken one by one while few pairs are close along their coordinate, as in large networks
-/// with few modes, and the rest in one pass once they have cost about half as much as the pass
-/// would. For sets of few runs O(N² (modes + sets)) at most; memory O(N · (modes + sets)).
+/// Sets are taken one by one while a tree of cells settles most pairs, as in large networks with few
+/// modes, and the rest in one pass once they have cost about half as much as the pass would. For
+/// sets of few runs O(N² (modes + sets)) at most; memory O(N · (modes + sets)).
 ///
 /// # Errors
 /// Those of [`EigenvectorDistance::new`] and [`EigenvectorDistance::clusters_within`].
@@ -48,16 +46,12 @@ pub(crate) fn clusters_of_each(
     check_threshold(threshold)?;
     let n_nodes = spectrum.eigenvectors[0].len();
     let pass = (spectrum.eigenvalues.len() + sets.len()).saturating_mul(n_nodes * n_nodes / 2);
-    let mut budget = pass / STEPS;
+    let mut work = pass / STEPS;
     let mut found = Vec::new();
     for modes in sets {
         let distance = EigenvectorDistance::new(spectrum, modes)?;
-        let work = distance.work_within(threshold) + n_nodes * modes.len() / COPIES;
-        if work > budget {
-            break;
-        }
-        budget -= work;
-        found.push(distance.clusters_within(threshold)?);
+        let Some(clusters) = distance.clusters_with_work(threshold, &mut work)? else { break };
+        found.push(clusters);
     }
     let rest = &sets[found.len()..];
     if !rest.is_empty() {
@@ -86,7 +80,7 @@ fn in_one_pass(
             link(&panels, &sets, i, panel, &sums, &mut families);
         }
     }
-    Ok((0..sets.len()).map(|set| Partition::from_marks(&families.roots(set))).collect())
+    Ok((0..sets.len()).map(|set| Partition::from_roots(&families.roots(set))).collect())
 }
 
 /// One set of unstable modes.
@@ -157,17 +151,11 @@ struct Panels<'a> {
     n_nodes: usize,
     /// Numbers of the eigenspaces, ascending.
     spaces: Vec<usize>,
+    /// Of factor c_d.
     blocks: Vec<Block>,
     width: usize,
     /// Shape (panels, width); not a number beyond the last node.
     values: Vec<[f64; LANES]>,
-}
-
-/// One eigenspace among the columns of a panel.
-struct Block {
-    columns: Range<usize>,
-    /// c_d.
-    factor: f64,
 }
 
 impl<'a> Panels<'a> {
@@ -226,14 +214,13 @@ impl<'a> Panels<'a> {
 
     /// δe_ij, digit by digit as [`EigenvectorDistance::between`] has it.
     fn distance(&self, set: &Set, i: usize, j: usize) -> f64 {
+        let vectors = &self.spectrum.eigenvectors;
+        let difference = |mode: usize| (vectors[mode][i] - vectors[mode][j]).abs();
         let mut sum = 0.0;
         for block in set.runs.iter().cloned().flatten() {
-            let space = self.spectrum.eigenspaces[self.spaces[block]].clone();
-            let of = |node: usize| -> Vec<f64> {
-                self.spectrum.eigenvectors[space.clone()].iter().map(|v| v[node]).collect()
-            };
-            let factor = self.blocks[block].factor / set.n_modes as f64;
-            sum += factor * norm_of_difference(&of(i), &of(j));
+            let columns = self.spectrum.eigenspaces[self.spaces[block]].clone();
+            let block = Block { columns, factor: self.blocks[block].factor / set.n_modes as f64 };
+            sum += block.factor * block.norm(difference);
         }
         sum
     }

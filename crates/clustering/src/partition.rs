@@ -34,6 +34,22 @@ impl Partition {
         Self { cluster_of, n_clusters: number.len() }
     }
 
+    /// [`Self::from_marks`] for marks that are nodes.
+    pub(crate) fn from_roots(roots: &[u32]) -> Self {
+        let mut number = vec![usize::MAX; roots.len()];
+        let mut n_clusters = 0;
+        let numbered = |&root: &u32| {
+            let number = &mut number[root as usize];
+            if *number == usize::MAX {
+                *number = n_clusters;
+                n_clusters += 1;
+            }
+            *number
+        };
+        let cluster_of = roots.iter().map(numbered).collect();
+        Self { cluster_of, n_clusters }
+    }
+
     /// The partition with these clusters; every node in none of them is a cluster of its own.
     ///
     /// # Errors
@@ -75,48 +91,29 @@ impl Partition {
         let mut sets = DisjointSets::new(n_nodes);
         for i in 0..n_nodes {
             for j in i + 1..n_nodes {
-                if !sets.are_joined(i, j) && distance(i, j) <= threshold {
-                    sets.join(i, j);
+                let (a, b) = (i as u32, j as u32);
+                if sets.root(a) != sets.root(b) && distance(i, j) <= threshold {
+                    sets.join(a, b);
                 }
             }
         }
-        Self::from_marks(&sets.roots())
+        Self::from_roots(&sets.roots())
     }
 
-    /// Single linkage that only looks at pairs whose coordinates differ by at most `window`.
-    ///
-    /// Equal to the full one if every linked pair is such a pair. O(N log N + pairs in the window).
-    pub(crate) fn single_linkage_along(
-        coordinate: &[f64],
-        window: f64,
-        is_linked: impl Fn(usize, usize) -> bool,
-    ) -> Self {
-        let order = ascending(coordinate);
-        let mut sets = DisjointSets::new(coordinate.len());
-        for (place, &i) in order.iter().enumerate() {
-            let in_window = |&&j: &&usize| coordinate[j] - coordinate[i] <= window;
-            for &j in order[place + 1..].iter().take_while(in_window) {
-                if !sets.are_joined(i, j) && is_linked(i, j) {
-                    sets.join(i, j);
-                }
-            }
+    /// Every cluster cut wherever the coordinates of its nodes, in ascending order, leave a gap
+    /// wider than `window`. O(N log N).
+    pub(crate) fn cut_at_gaps(&self, coordinate: &[f64], window: f64) -> Self {
+        let mut places: Vec<(usize, f64, u32)> = (0..)
+            .zip(&self.cluster_of)
+            .zip(coordinate)
+            .map(|((node, &c), &x)| (c, x, node))
+            .collect();
+        places.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let mut roots = vec![0; places.len()];
+        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= window) {
+            run.iter().for_each(|place| roots[place.2 as usize] = run[0].2);
         }
-        Self::from_marks(&sets.roots())
-    }
-
-    /// How many pairs [`Self::single_linkage_along`] looks at, O(N log N).
-    pub(crate) fn pairs_along(coordinate: &[f64], window: f64) -> usize {
-        let order = ascending(coordinate);
-        let mut end = 0;
-        let mut pairs = 0;
-        for (place, &i) in order.iter().enumerate() {
-            end = end.max(place + 1);
-            while end < order.len() && coordinate[order[end]] - coordinate[i] <= window {
-                end += 1;
-            }
-            pairs += end - place - 1;
-        }
-        pairs
+        Self::from_roots(&roots)
     }
 
     /// Number of nodes N.
@@ -134,18 +131,56 @@ impl Partition {
         &self.cluster_of
     }
 
+    /// Number of nodes of every cluster.
+    pub fn sizes(&self) -> Vec<usize> {
+        let mut sizes = vec![0; self.n_clusters];
+        self.cluster_of.iter().for_each(|&cluster| sizes[cluster] += 1);
+        sizes
+    }
+
+    /// The lowest node of every cluster, ascending.
+    pub fn first_nodes(&self) -> Vec<usize> {
+        let mut first_nodes = Vec::with_capacity(self.n_clusters);
+        for (node, &cluster) in self.cluster_of.iter().enumerate() {
+            if cluster == first_nodes.len() {
+                first_nodes.push(node);
+            }
+        }
+        first_nodes
+    }
+
     /// Every cluster as a sorted list of nodes, ordered by first node.
     pub fn clusters(&self) -> Vec<Vec<usize>> {
-        let mut clusters = vec![Vec::new(); self.n_clusters];
-        for (node, &cluster) in self.cluster_of.iter().enumerate() {
-            clusters[cluster].push(node);
-        }
-        clusters
+        self.clusters_of_at_least(1)
     }
 
     /// The clusters of at least two nodes, in the order of [`Self::clusters`].
     pub fn nontrivial(&self) -> Vec<Vec<usize>> {
-        self.clusters().into_iter().filter(|cluster| cluster.len() > 1).collect()
+        self.clusters_of_at_least(2)
+    }
+
+    fn clusters_of_at_least(&self, n_nodes: usize) -> Vec<Vec<usize>> {
+        let members = self.members();
+        let lists = members.clusters().filter(|cluster| cluster.len() >= n_nodes);
+        lists.map(|cluster| cluster.iter().map(|&node| node as usize).collect()).collect()
+    }
+
+    /// All clusters in one list. O(N).
+    ///
+    /// # Panics
+    /// If there are 2³² nodes or more.
+    pub(crate) fn members(&self) -> Members {
+        let end = u32::try_from(self.n_nodes()).expect("fewer than 2^32 nodes");
+        let mut starts = vec![0; self.n_clusters + 1];
+        self.cluster_of.iter().for_each(|&cluster| starts[cluster + 1] += 1);
+        (0..self.n_clusters).for_each(|cluster| starts[cluster + 1] += starts[cluster]);
+        let mut next = starts.clone();
+        let mut nodes = vec![0; self.n_nodes()];
+        for (node, &cluster) in (0..end).zip(&self.cluster_of) {
+            nodes[next[cluster] as usize] = node;
+            next[cluster] += 1;
+        }
+        Members { starts, nodes }
     }
 
     /// Whether every cluster lies within one cluster of `coarse`. A partition refines itself.
@@ -163,9 +198,15 @@ impl Partition {
     }
 }
 
-/// The nodes in the order of their coordinates.
-fn ascending(coordinate: &[f64]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..coordinate.len()).collect();
-    order.sort_unstable_by(|&i, &j| coordinate[i].total_cmp(&coordinate[j]));
-    order
+/// The nodes of every cluster, ascending, one cluster after the other.
+pub(crate) struct Members {
+    /// Where each cluster starts, and the end of the last, length clusters + 1.
+    pub(crate) starts: Vec<u32>,
+    pub(crate) nodes: Vec<u32>,
+}
+
+impl Members {
+    pub(crate) fn clusters(&self) -> impl Iterator<Item = &[u32]> {
+        self.starts.windows(2).map(|ends| &self.nodes[ends[0] as usize..ends[1] as usize])
+    }
 }

@@ -92,11 +92,11 @@ impl RegionDistances {
         for (a, &one) in kept.iter().enumerate() {
             for (b, &other) in kept.iter().enumerate().skip(a + 1) {
                 if self.between(one, other) < thresholds.between {
-                    sets.join(a, b);
+                    sets.join(a as u32, b as u32);
                 }
             }
         }
-        let partition = Partition::from_marks(&sets.roots());
+        let partition = Partition::from_roots(&sets.roots());
         let mut cluster_of = vec![None; self.n_regions];
         for (&region, &cluster) in kept.iter().zip(partition.cluster_of()) {
             cluster_of[region] = Some(cluster);

@@ -11,8 +11,8 @@
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
+use crate::Replica;
 use crate::random::unit_interval;
-use crate::{Lanes, Replica};
 
 /// Model time between kicks.
 const INTERVAL: f64 = 1.0;
@@ -43,8 +43,8 @@ impl<const L: usize> Kicks<L> {
     }
 
     /// Kicks one component of one node in every lane.
-    pub(crate) fn apply(&mut self, value: &mut Lanes<L>) {
-        for (x, generator) in value.0.iter_mut().zip(&mut self.generators) {
+    pub(crate) fn apply(&mut self, lanes: &mut [f64; L]) {
+        for (x, generator) in lanes.iter_mut().zip(&mut self.generators) {
             *x *= 1.0 + self.size * (2.0 * unit_interval(generator.next_u64()) - 1.0);
         }
     }

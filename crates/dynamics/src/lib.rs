@@ -8,27 +8,35 @@
 //! Arithmetic is the same to the last bit on any x86-64: no fused multiply-add, a fixed order of
 //! summation, and logarithms from a library that is itself portable.
 
+mod aligned;
+mod batches;
+mod block_means;
 mod coupling;
+mod differences;
 mod error;
+mod instruction_set;
 mod integrators;
+mod kernel;
 mod kicks;
 pub mod lyapunov;
-mod network;
 mod observables;
 mod oscillator;
 mod oscillators;
 mod random;
+mod row_sums;
 mod scalar;
+mod simulation;
 mod statistics;
 
 pub use coupling::Coupling;
 pub use error::DynamicsError;
+pub use instruction_set::{InstructionSet, Work};
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
-pub use network::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
 pub use observables::{Errors, Observables, pair_index};
 pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
 pub use scalar::{Dual, Lanes, Scalar};
+pub use simulation::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
 pub use statistics::{BLOCKS, Estimate};
 
 /// Sparse matrix in compressed-row form with 32-bit column indices.

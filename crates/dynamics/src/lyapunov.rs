@@ -7,19 +7,28 @@
 //! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
 //! the logarithms of their growth averaged.
 
+mod master_equation;
+
+use std::ops::Mul;
+
 use rayon::prelude::*;
 
+use master_equation::{Batch, MasterEquation, Orbit};
+
 use crate::error::{check_times, whole};
-use crate::integrators::rk4;
+use crate::integrators::rk4::{self, Flow};
 use crate::oscillators::with_oscillator;
 use crate::random::initial_states;
 use crate::statistics::BLOCKS;
 use crate::{
-    Coupling, Dual, DynamicsError, ESCAPE_RADIUS, Estimate, Lanes, Model, Oscillator, Progress,
+    Coupling, Dual, DynamicsError, Estimate, InstructionSet, Lanes, Model, Oscillator, Progress,
 };
 
 /// The most tangents advanced together.
-const MAX_LANES: usize = 8;
+const MAX_LANES: usize = 16;
+
+/// From this many tangents on an orbit is worth computing for them alone, as a plain number.
+const SHARED_ORBIT: usize = 4;
 
 /// Times of an average over an orbit, in model time units, with a fixed RK4 step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +53,8 @@ pub struct Tangent {
 }
 
 /// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
-/// time, with standard errors over [`BLOCKS`] blocks.
+/// time, with standard errors over [`BLOCKS`] blocks. Tangents with one seed have one orbit, and are
+/// cheaper for it; their errors are then correlated.
 ///
 /// Runs on the current rayon pool; results come in the order of `tangents` and do not depend on how
 /// these are grouped into lanes or threads.
@@ -52,7 +62,7 @@ pub struct Tangent {
 /// # Errors
 /// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`], [`DynamicsError::TooFewSamples`] for times
 /// that make no sense; [`DynamicsError::Escaped`] when an orbit leaves the ball of radius
-/// [`ESCAPE_RADIUS`].
+/// [`crate::ESCAPE_RADIUS`].
 pub fn master_exponents(
     model: Model,
     coupling: Coupling,
@@ -60,17 +70,50 @@ pub fn master_exponents(
     tangents: &[Tangent],
     progress: Progress<'_>,
 ) -> Result<Vec<Estimate>, DynamicsError> {
+    master_exponents_with(InstructionSet::best(), model, coupling, times, tangents, progress)
+}
+
+/// [`master_exponents`] with given vector instructions, on which the results do not depend.
+///
+/// # Errors
+/// As [`master_exponents`].
+///
+/// # Panics
+/// When this processor does not have the instructions.
+pub fn master_exponents_with(
+    instruction_set: InstructionSet,
+    model: Model,
+    coupling: Coupling,
+    times: &Times,
+    tangents: &[Tangent],
+    progress: Progress<'_>,
+) -> Result<Vec<Estimate>, DynamicsError> {
     let plan = Plan::new(times)?;
-    with_oscillator!(model, oscillator => {
-        let batches = tangents
-            .par_chunks(MAX_LANES)
-            .map(|batch| match batch.len() {
-                1 => master_batch::<_, _, 1>(oscillator, coupling, &plan, batch, progress),
-                _ => master_batch::<_, _, MAX_LANES>(oscillator, coupling, &plan, batch, progress),
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(batches.into_iter().flatten().collect())
-    })
+    let mut order: Vec<usize> = (0..tangents.len()).collect();
+    order.sort_by_key(|&index| tangents[index].seed);
+    let (shared, alone): (Vec<_>, Vec<_>) = order
+        .chunk_by(|&a, &b| tangents[a].seed == tangents[b].seed)
+        .partition(|of_one_seed| of_one_seed.len() >= SHARED_ORBIT);
+    let alone = alone.concat();
+    let batches: Vec<&[usize]> = shared
+        .iter()
+        .flat_map(|of_one_seed| of_one_seed.chunks(MAX_LANES))
+        .chain(alone.chunks(MAX_LANES))
+        .collect();
+    let run = |&batch: &&[usize]| {
+        let tangents: Vec<Tangent> = batch.iter().map(|&index| tangents[index]).collect();
+        with_oscillator!(model, oscillator => {
+            let batch = Batch { oscillator, coupling, plan: &plan, tangents: &tangents, progress };
+            batch.run_with(instruction_set)
+        })
+    };
+    let exponents: Vec<_> =
+        batches.par_iter().with_max_len(1).map(run).collect::<Result<_, _>>()?;
+    let mut in_order = vec![Estimate::default(); tangents.len()];
+    for (&index, exponent) in batches.iter().copied().flatten().zip(exponents.concat()) {
+        in_order[index] = exponent;
+    }
+    Ok(in_order)
 }
 
 /// All Lyapunov exponents of the isolated oscillator, descending, per unit of model time.
@@ -125,68 +168,43 @@ impl Plan {
     /// Runs the dual system through the transient and all blocks, handing the tangents of every
     /// interval to `renormalise`, which gives the logarithms of their growth; returns block means of
     /// the exponents, `[block][lane]`.
-    fn block_means<const D: usize, const L: usize>(
+    #[inline(always)]
+    fn block_means<V: Orbit, const D: usize, const L: usize>(
         &self,
-        flow: impl Fn([Dual<Lanes<L>>; D]) -> [Dual<Lanes<L>>; D],
-        mut state: [Dual<Lanes<L>>; D],
-        renormalise: impl Fn(&mut [Dual<Lanes<L>>; D]) -> [f64; L],
+        equation: &impl Flow<Dual<V, Lanes<L>>, D>,
+        mut state: [Dual<V, Lanes<L>>; D],
+        renormalise: impl Fn(&mut [Dual<V, Lanes<L>>; D]) -> [f64; L],
         progress: impl Fn(u64),
-    ) -> Result<Vec<[f64; L]>, DynamicsError> {
-        let mut intervals = 0u64;
-        let mut grow = |count: u64| {
-            let mut growth = [0.0; L];
-            for _ in 0..count {
-                for _ in 0..self.steps_per_interval {
-                    state = rk4::step(&flow, state, self.step);
-                }
-                intervals += 1;
-                let bounded = |x: &f64| x.abs() < ESCAPE_RADIUS;
-                if !state.iter().all(|component| component.value.0.iter().all(bounded)) {
-                    let time = intervals as f64 * self.interval();
-                    return Err(DynamicsError::Escaped { time });
-                }
-                for (sum, log) in growth.iter_mut().zip(renormalise(&mut state)) {
-                    *sum += log;
-                }
-                progress(self.steps_per_interval);
+    ) -> Result<Vec<[f64; L]>, DynamicsError>
+    where
+        Lanes<L>: Mul<V, Output = Lanes<L>>,
+    {
+        let in_blocks = self.intervals_per_block * BLOCKS as u64;
+        let mut blocks = Vec::with_capacity(BLOCKS);
+        let mut growth = [0.0; L];
+        for interval in 1..=self.transient_intervals + in_blocks {
+            for _ in 0..self.steps_per_interval {
+                state = rk4::step(equation, state, self.step);
             }
-            Ok(growth.map(|sum| sum / (count as f64 * self.interval())))
-        };
-        if self.transient_intervals > 0 {
-            grow(self.transient_intervals)?;
+            if !state.iter().all(|component| component.value.is_bounded()) {
+                return Err(DynamicsError::Escaped { time: interval as f64 * self.interval() });
+            }
+            for (sum, log) in growth.iter_mut().zip(renormalise(&mut state)) {
+                *sum += log;
+            }
+            progress(self.steps_per_interval);
+            let Some(averaged) = interval.checked_sub(self.transient_intervals) else { continue };
+            if averaged.is_multiple_of(self.intervals_per_block) {
+                let time = self.intervals_per_block as f64 * self.interval();
+                // At its end the transient has been one block, and is forgotten.
+                if averaged > 0 {
+                    blocks.push(growth.map(|sum| sum / time));
+                }
+                growth = [0.0; L];
+            }
         }
-        (0..BLOCKS).map(|_| grow(self.intervals_per_block)).collect()
+        Ok(blocks)
     }
-}
-
-fn master_batch<O: Oscillator<D>, const D: usize, const L: usize>(
-    oscillator: O,
-    coupling: Coupling,
-    plan: &Plan,
-    batch: &[Tangent],
-    progress: Progress<'_>,
-) -> Result<Vec<Estimate>, DynamicsError> {
-    // Lanes beyond the batch repeat its last tangent and are never read.
-    let tangent = |lane: usize| batch[lane.min(batch.len() - 1)];
-    let sigma = Lanes(std::array::from_fn(|lane| tangent(lane).sigma));
-    let flow = |state: [Dual<Lanes<L>>; D]| {
-        let mut slope = oscillator.flow(state);
-        for (c, slope) in slope.iter_mut().enumerate() {
-            if c == coupling.to {
-                slope.tangent = slope.tangent - sigma * state[coupling.from].tangent;
-            }
-        }
-        slope
-    };
-    let orbits: [[f64; D]; L] =
-        std::array::from_fn(|lane| initial_states::<O, D>(1, tangent(lane).seed)[0]);
-    let state = std::array::from_fn(|c| Dual {
-        value: Lanes(std::array::from_fn(|lane| orbits[lane][c])),
-        tangent: Lanes([1.0; L]),
-    });
-    let lanes = batch.len() as u64;
-    let blocks = plan.block_means(flow, state, normalise, |steps| progress(steps * lanes))?;
-    Ok(estimates(&blocks, batch.len()))
 }
 
 fn spectrum_of<O: Oscillator<D>, const D: usize>(
@@ -195,23 +213,28 @@ fn spectrum_of<O: Oscillator<D>, const D: usize>(
     seed: u64,
 ) -> Result<Vec<Estimate>, DynamicsError> {
     let start = initial_states::<O, D>(1, seed)[0];
-    let state: [Dual<Lanes<D>>; D] = std::array::from_fn(|c| Dual {
-        value: Lanes([start[c]; D]),
+    let state: [Dual<f64, Lanes<D>>; D] = std::array::from_fn(|c| Dual {
+        value: start[c],
         tangent: Lanes(std::array::from_fn(|lane| f64::from(u8::from(lane == c)))),
     });
-    let flow = |state| oscillator.flow(state);
-    let blocks = plan.block_means(flow, state, orthonormalise, |_| ())?;
+    // At σ = 0 the tangents are those of the isolated oscillator.
+    let (coupling, sigma) = (Coupling { from: 0, to: 0 }, Lanes([0.0; D]));
+    let equation = MasterEquation { oscillator, coupling, sigma };
+    let blocks = plan.block_means(&equation, state, orthonormalise, |_| ())?;
     Ok(estimates(&blocks, D))
 }
 
 /// Scales every lane's tangent to unit length; gives the logarithms of the lengths.
-fn normalise<const D: usize, const L: usize>(state: &mut [Dual<Lanes<L>>; D]) -> [f64; L] {
+#[inline(always)]
+fn normalise<V, const D: usize, const L: usize>(state: &mut [Dual<V, Lanes<L>>; D]) -> [f64; L] {
     std::array::from_fn(|lane| scale_to_unit(state, lane))
 }
 
 /// Makes the lanes' tangents orthonormal in their order; gives the logarithms of the lengths that
 /// remain, the diagonal of R.
-fn orthonormalise<const D: usize, const L: usize>(state: &mut [Dual<Lanes<L>>; D]) -> [f64; L] {
+fn orthonormalise<V, const D: usize, const L: usize>(
+    state: &mut [Dual<V, Lanes<L>>; D],
+) -> [f64; L] {
     std::array::from_fn(|lane| {
         for before in 0..lane {
             let overlap: f64 = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[before]).sum();
@@ -223,8 +246,9 @@ fn orthonormalise<const D: usize, const L: usize>(state: &mut [Dual<Lanes<L>>; D
     })
 }
 
-fn scale_to_unit<const D: usize, const L: usize>(
-    state: &mut [Dual<Lanes<L>>; D],
+#[inline(always)]
+fn scale_to_unit<V, const D: usize, const L: usize>(
+    state: &mut [Dual<V, Lanes<L>>; D],
     lane: usize,
 ) -> f64 {
     let length = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[lane]).sum::<f64>().sqrt();
@@ -304,6 +328,21 @@ mod tests {
             .map(|&t| master_exponents(model, coupling, &times, &[t], QUIET).unwrap()[0])
             .collect();
         assert_eq!(together, alone);
+    }
+
+    #[test]
+    fn exponents_have_the_same_bits_for_every_instruction_set() {
+        let model = Model::Rossler(Rossler::default());
+        let (coupling, times) = (Coupling { from: 0, to: 0 }, Times { average: 100.0, ..TIMES });
+        let tangents: Vec<_> = (0..20u32)
+            .map(|k| Tangent { sigma: f64::from(k) / 4.0, seed: u64::from(k.saturating_sub(15)) })
+            .collect();
+        let exponents =
+            |set| master_exponents_with(set, model, coupling, &times, &tangents, QUIET).unwrap();
+        let baseline = exponents(InstructionSet::Baseline);
+        for set in InstructionSet::available() {
+            assert_eq!(exponents(set), baseline, "{}", set.name());
+        }
     }
 
     #[test]

@@ -7,7 +7,9 @@
 //! Source: Fan, Wang & Wang (2023), Fig. 1 and Sec. III A. Only sums over samples are kept, never a
 //! trajectory.
 
-use crate::statistics::BLOCKS;
+use crate::block_means::BlockMeans;
+use crate::differences::{Differences, SAMPLES, Samples};
+use crate::kernel::WIDTH;
 use crate::{Estimate, Lanes};
 
 /// Which synchronisation errors to average.
@@ -50,135 +52,125 @@ pub fn pair_index(i: usize, j: usize, n_nodes: usize) -> usize {
     i * n_nodes - i * (i + 1) / 2 + j - i - 1
 }
 
-/// Channels, each the mean of |x_i − x_j| over its own list of pairs, and their running sums.
+/// The averages of `L` lanes as they grow: samples wait in a buffer, see [`Samples`].
 pub(crate) struct ErrorSums<const L: usize> {
-    component: usize,
-    n_pairs: usize,
-    n_reference: usize,
-    /// Pairs of all channels, one channel after the other.
-    pairs: Vec<[u32; 2]>,
-    /// Where each channel ends in `pairs`.
-    ends: Vec<usize>,
-    /// Sum over the samples of the block in progress.
-    block: Vec<Lanes<L>>,
-    /// Mean of the finished blocks and sum of squared deviations from it (Welford 1962).
-    mean: Vec<Lanes<L>>,
-    squares: Vec<Lanes<L>>,
+    n_nodes: usize,
+    samples: Samples<L>,
+    pairs: Option<Differences<PAIR_ROWS, L>>,
+    reference: Option<Differences<1, L>>,
+    /// Each cluster with the sum over its pairs.
+    clusters: Vec<(Vec<usize>, BlockMeans)>,
     samples_per_block: u64,
     samples_in_block: u64,
-    blocks: usize,
 }
+
+/// Nodes whose differences from all others are taken together.
+const PAIR_ROWS: usize = 2;
 
 impl<const L: usize> ErrorSums<L> {
     pub(crate) fn new(observables: &Observables, n_nodes: usize, samples_per_block: u64) -> Self {
-        let (mut pairs, mut ends) = (Vec::new(), Vec::new());
-        if observables.pairs {
-            for pair in pairs_of(&(0..n_nodes).collect::<Vec<_>>()) {
-                pairs.push(pair);
-                ends.push(pairs.len());
-            }
-        }
-        let n_pairs = ends.len();
-        if let Some(reference) = observables.reference {
-            for node in 0..n_nodes {
-                pairs.push([narrow(node), narrow(reference)]);
-                ends.push(pairs.len());
-            }
-        }
-        let n_reference = ends.len() - n_pairs;
-        for cluster in &observables.clusters {
-            pairs.extend(pairs_of(cluster));
-            ends.push(pairs.len());
-        }
-        let zeros = vec![Lanes([0.0; L]); ends.len()];
+        let upper: Vec<_> = (0..n_nodes).map(|i| (i, i + 1)).collect();
+        let with_sum = |nodes: &Vec<usize>| (nodes.clone(), BlockMeans::new(L));
         Self {
-            component: observables.component,
-            n_pairs,
-            n_reference,
-            pairs,
-            ends,
-            block: zeros.clone(),
-            mean: zeros.clone(),
-            squares: zeros,
+            n_nodes,
+            samples: Samples::new(n_nodes),
+            pairs: observables.pairs.then(|| Differences::new(&upper, n_nodes)),
+            reference: observables.reference.map(|node| Differences::new(&[(node, 0)], n_nodes)),
+            clusters: observables.clusters.iter().map(with_sum).collect(),
             samples_per_block,
             samples_in_block: 0,
-            blocks: 0,
         }
     }
 
-    /// Adds one sample of the network's state, `[component][node]`.
+    /// Adds one sample of the observed component, `[node][lane]`, run by run.
     #[inline(always)]
-    pub(crate) fn sample<const D: usize>(&mut self, state: [&[Lanes<L>]; D]) {
-        let x = state[self.component];
-        let mut start = 0;
-        for (block, &end) in self.block.iter_mut().zip(&self.ends) {
-            for &[i, j] in &self.pairs[start..end] {
-                *block = *block + (x[i as usize] - x[j as usize]).abs();
-            }
-            start = end;
-        }
+    pub(crate) fn sample<'a>(&mut self, sample: impl Iterator<Item = &'a [f64; WIDTH]>) {
+        self.samples.push(sample);
         self.samples_in_block += 1;
-        if self.samples_in_block == self.samples_per_block {
+        let block_ends = self.samples_in_block == self.samples_per_block;
+        if self.samples.len() == SAMPLES || block_ends {
+            self.add_samples();
+        }
+        if block_ends {
             self.close_block();
         }
     }
 
+    #[inline(always)]
+    fn add_samples(&mut self) {
+        if let Some(pairs) = &mut self.pairs {
+            pairs.add(&self.samples);
+        }
+        if let Some(reference) = &mut self.reference {
+            reference.add(&self.samples);
+        }
+        for (nodes, means) in &mut self.clusters {
+            let [sum] = means.sums.as_chunks_mut::<L>().0 else { unreachable!("one sum a lane") };
+            *sum = add_pairs(Lanes(*sum), nodes, &self.samples).0;
+        }
+        self.samples.clear();
+    }
+
+    #[inline(always)]
     fn close_block(&mut self) {
-        self.blocks += 1;
-        let mut start = 0;
-        for (channel, &end) in self.ends.iter().enumerate() {
-            let terms = (end - start) as f64 * self.samples_per_block as f64;
-            let value = self.block[channel] * (1.0 / terms);
-            let before = value - self.mean[channel];
-            self.mean[channel] = self.mean[channel] + before * (1.0 / self.blocks as f64);
-            self.squares[channel] = self.squares[channel] + before * (value - self.mean[channel]);
-            self.block[channel] = Lanes([0.0; L]);
-            start = end;
+        let samples = self.samples_per_block as f64;
+        if let Some(pairs) = &mut self.pairs {
+            pairs.close(samples);
+        }
+        if let Some(reference) = &mut self.reference {
+            reference.close(samples);
+        }
+        for (nodes, means) in &mut self.clusters {
+            means.close((nodes.len() * (nodes.len() - 1) / 2) as f64 * samples);
         }
         self.samples_in_block = 0;
     }
 
     /// The averages of one lane.
     pub(crate) fn errors(&self, lane: usize) -> Errors {
-        let blocks = BLOCKS as f64;
-        let estimates = |range: std::ops::Range<usize>| {
-            range
-                .map(|channel| Estimate {
-                    mean: self.mean[channel].0[lane],
-                    standard_error: (self.squares[channel].0[lane].max(0.0)
-                        / (blocks - 1.0)
-                        / blocks)
-                        .sqrt(),
-                })
-                .collect()
-        };
-        let (first, second) = (self.n_pairs, self.n_pairs + self.n_reference);
+        let n = self.n_nodes;
+        let upper = || (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
         Errors {
-            pairs: estimates(0..first),
-            to_reference: estimates(first..second),
-            within_clusters: estimates(second..self.ends.len()),
+            pairs: self
+                .pairs
+                .iter()
+                .flat_map(|pairs| upper().map(|(i, j)| pairs.estimate(i, j, lane)))
+                .collect(),
+            to_reference: self
+                .reference
+                .iter()
+                .flat_map(|reference| (0..n).map(|node| reference.estimate(0, node, lane)))
+                .collect(),
+            within_clusters: self.clusters.iter().map(|(_, means)| means.estimate(lane)).collect(),
         }
     }
 }
 
-fn pairs_of(nodes: &[usize]) -> impl Iterator<Item = [u32; 2]> + '_ {
-    nodes.iter().enumerate().flat_map(move |(position, &i)| {
-        nodes[position + 1..].iter().map(move |&j| [narrow(i), narrow(j)])
-    })
-}
-
-fn narrow(node: usize) -> u32 {
-    u32::try_from(node).expect("node numbers fit the 32-bit indices of the matrix")
+/// Adds |x_i − x_j| of all pairs of some nodes to a sum, sample after sample.
+#[inline(always)]
+fn add_pairs<const L: usize>(mut sum: Lanes<L>, nodes: &[usize], samples: &Samples<L>) -> Lanes<L> {
+    for sample in 0..samples.len() {
+        for (position, &i) in nodes.iter().enumerate() {
+            let x = samples.node(i, sample);
+            for &j in &nodes[position + 1..] {
+                sum = sum + (x - samples.node(j, sample)).abs();
+            }
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::BLOCKS;
 
     fn observed(observables: &Observables, samples: &[[f64; 3]]) -> Errors {
         let mut sums = ErrorSums::<1>::new(observables, 3, (samples.len() / BLOCKS) as u64);
         for sample in samples {
-            sums.sample([&sample.map(|x| Lanes([x]))]);
+            let mut run = [0.0; WIDTH];
+            run[..3].copy_from_slice(sample);
+            sums.sample([run].iter());
         }
         sums.errors(0)
     }
@@ -211,5 +203,59 @@ mod tests {
         let expected = Estimate::from_independent(&blocks);
         assert!((errors.pairs[0].mean - expected.mean).abs() < 1e-13);
         assert!((errors.pairs[0].standard_error - expected.standard_error).abs() < 1e-13);
+    }
+
+    /// Errors made by adding every sample to every sum as it comes.
+    fn unbuffered(samples: &[Vec<f64>], per_block: usize, pairs: &[(usize, usize)]) -> Vec<f64> {
+        let mean = |&(i, j): &(usize, usize)| {
+            let block = |(before, block): (f64, usize), samples: &[Vec<f64>]| {
+                let sum = samples.iter().fold(0.0, |sum, x| sum + (x[i] - x[j]).abs());
+                let value = sum * (1.0 / per_block as f64);
+                (before + (value - before) * (1.0 / block as f64), block + 1)
+            };
+            samples.chunks(per_block).fold((0.0, 1), block).0
+        };
+        pairs.iter().map(mean).collect()
+    }
+
+    fn check_buffer<const L: usize>() {
+        // Blocks of 70 samples fill the buffer twice and a bit; 21 nodes fill no run of numbers.
+        let (n_nodes, per_block) = (21, 70);
+        let value = |sample: usize, node: usize, lane: usize| {
+            ((sample * 31 + node * 17 + lane * 7) as f64).sin() * (1.0 + node as f64)
+        };
+        let observables = Observables { pairs: true, reference: Some(4), ..Observables::default() };
+        let mut sums = ErrorSums::<L>::new(&observables, n_nodes, per_block as u64);
+        for sample in 0..per_block * BLOCKS {
+            let numbers: Vec<f64> = (0..n_nodes * L).map(|k| value(sample, k / L, k % L)).collect();
+            let run = |numbers: &[f64]| {
+                let mut run = [f64::NAN; WIDTH];
+                run[..numbers.len()].copy_from_slice(numbers);
+                run
+            };
+            let runs: Vec<_> = numbers.chunks(WIDTH).map(run).collect();
+            sums.sample(runs.iter());
+        }
+        let pairs: Vec<_> =
+            (0..n_nodes).flat_map(|i| (i + 1..n_nodes).map(move |j| (i, j))).collect();
+        let to_reference: Vec<_> = (0..n_nodes).map(|node| (node, 4)).collect();
+        for lane in 0..L {
+            let samples: Vec<Vec<f64>> = (0..per_block * BLOCKS)
+                .map(|sample| (0..n_nodes).map(|node| value(sample, node, lane)).collect())
+                .collect();
+            let errors = sums.errors(lane);
+            for (estimates, pairs) in [(errors.pairs, &pairs), (errors.to_reference, &to_reference)]
+            {
+                let means: Vec<f64> = estimates.iter().map(|estimate| estimate.mean).collect();
+                assert_eq!(means, unbuffered(&samples, per_block, pairs), "lane {lane} of {L}");
+            }
+        }
+    }
+
+    #[test]
+    fn buffered_samples_give_the_bits_of_samples_added_one_by_one() {
+        check_buffer::<1>();
+        check_buffer::<2>();
+        check_buffer::<16>();
     }
 }

@@ -38,13 +38,19 @@ impl<const L: usize> From<f64> for Lanes<L> {
 
 impl<const L: usize> Lanes<L> {
     #[inline(always)]
-    fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
+    fn zip(mut self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        for lane in 0..L {
+            self.0[lane] = operation(self.0[lane], other.0[lane]);
+        }
+        self
     }
 
     #[inline(always)]
-    fn map(self, operation: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.map(operation))
+    fn map(mut self, operation: impl Fn(f64) -> f64) -> Self {
+        for lane in 0..L {
+            self.0[lane] = operation(self.0[lane]);
+        }
+        self
     }
 
     /// |x| in every lane.
@@ -85,24 +91,26 @@ impl<const L: usize> Neg for Lanes<L> {
 }
 
 /// A value with a tangent: value + tangent·δ, δ² = 0.
+///
+/// One value may carry several tangents as [`Lanes`]: its own operations are then done once for all.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<S> {
+pub struct Dual<V, T = V> {
     /// The number itself.
-    pub value: S,
-    /// Its derivative along the direction that is carried.
-    pub tangent: S,
+    pub value: V,
+    /// Its derivative along the direction, or directions, carried.
+    pub tangent: T,
 }
 
-impl<S: Scalar> Scalar for Dual<S> {}
+impl<V: Scalar, T: Scalar + Mul<V, Output = T>> Scalar for Dual<V, T> {}
 
-impl<S: Scalar> From<f64> for Dual<S> {
+impl<V: Scalar, T: Scalar> From<f64> for Dual<V, T> {
     #[inline(always)]
     fn from(value: f64) -> Self {
-        Self { value: S::from(value), tangent: S::from(0.0) }
+        Self { value: V::from(value), tangent: T::from(0.0) }
     }
 }
 
-impl<S: Scalar> Add for Dual<S> {
+impl<V: Scalar, T: Scalar> Add for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -110,7 +118,7 @@ impl<S: Scalar> Add for Dual<S> {
     }
 }
 
-impl<S: Scalar> Sub for Dual<S> {
+impl<V: Scalar, T: Scalar> Sub for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -118,18 +126,18 @@ impl<S: Scalar> Sub for Dual<S> {
     }
 }
 
-impl<S: Scalar> Mul for Dual<S> {
+impl<V: Scalar, T: Scalar + Mul<V, Output = T>> Mul for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
-            tangent: self.value * other.tangent + self.tangent * other.value,
+            tangent: other.tangent * self.value + self.tangent * other.value,
         }
     }
 }
 
-impl<S: Scalar> Neg for Dual<S> {
+impl<V: Scalar, T: Scalar> Neg for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -137,7 +145,7 @@ impl<S: Scalar> Neg for Dual<S> {
     }
 }
 
-impl<S: Scalar> Add<f64> for Dual<S> {
+impl<V: Scalar, T: Scalar> Add<f64> for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -145,7 +153,7 @@ impl<S: Scalar> Add<f64> for Dual<S> {
     }
 }
 
-impl<S: Scalar> Sub<f64> for Dual<S> {
+impl<V: Scalar, T: Scalar> Sub<f64> for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -153,7 +161,7 @@ impl<S: Scalar> Sub<f64> for Dual<S> {
     }
 }
 
-impl<S: Scalar> Mul<f64> for Dual<S> {
+impl<V: Scalar, T: Scalar> Mul<f64> for Dual<V, T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {

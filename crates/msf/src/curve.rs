@@ -1,7 +1,7 @@
 //! Λ(σ) on a grid, with standard errors, and what follows from it.
 
-use dynamics::lyapunov::{Tangent, Times, master_exponents};
-use dynamics::{Coupling, Estimate, Model, Progress};
+use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
+use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
 use crate::zeros::{self, Refinement, Zero};
 use crate::{Interval, MsfError, StableRegion};
@@ -29,6 +29,8 @@ pub struct Request {
     pub refinement: Refinement,
     /// Seed from which all orbits' seeds follow.
     pub seed: u64,
+    /// Vector instructions to use; results do not depend on them.
+    pub instruction_set: InstructionSet,
 }
 
 /// The master stability function as computed.
@@ -95,14 +97,17 @@ pub fn master_stability(
         return Err(MsfError::BadGrid);
     }
     let exponents = |tangents: &[Tangent]| {
-        master_exponents(node.model, node.coupling, &request.times, tangents, progress)
+        let (times, set) = (&request.times, request.instruction_set);
+        master_exponents_with(set, node.model, node.coupling, times, tangents, progress)
     };
     let mut seeds = Seeds { next: request.seed.wrapping_mul(1 << 32) };
     let isolated: Vec<_> =
         (0..ISOLATED_ORBITS).map(|_| Tangent { sigma: 0.0, seed: seeds.next() }).collect();
     let isolated: Vec<f64> = exponents(&isolated)?.iter().map(|estimate| estimate.mean).collect();
-    let grid: Vec<_> =
-        request.sigma.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
+    // One orbit serves the whole grid. Zeros are found from orbits of their own, since their standard
+    // errors come from the scatter of independent exponents.
+    let seed = seeds.next();
+    let grid: Vec<_> = request.sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
     let curve = MasterStability {
         sigma: request.sigma.clone(),
         lambda: exponents(&grid)?,

@@ -9,11 +9,13 @@
 mod critical;
 mod curve;
 mod error;
+mod reach;
 mod stable_region;
 mod zeros;
 
 pub use critical::{CriticalCoupling, critical_couplings};
 pub use curve::{MasterStability, Node, Request, master_stability};
 pub use error::MsfError;
+pub use reach::reach;
 pub use stable_region::{Interval, StableRegion};
 pub use zeros::{Refinement, Zero};

@@ -3,7 +3,7 @@
 //! The short forms run always; EIGENSYNC_LONG_TESTS=1 runs them long enough to test the numbers.
 
 use dynamics::lyapunov::Times;
-use dynamics::{Coupling, HindmarshRose, Lorenz, Model, Rossler};
+use dynamics::{Coupling, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{MasterStability, Node, Refinement, Request, master_stability};
 
 const LORENZ: Node =
@@ -18,6 +18,7 @@ fn compute(node: Node, [from, to]: [f64; 2], points: u32, average: f64) -> Maste
         times: Times { step: 0.01, transient: 500.0, average, renormalise: 0.5 },
         refinement: Refinement::default(),
         seed: 1,
+        instruction_set: InstructionSet::best(),
     };
     master_stability(&node, &request, &|_| ()).expect("the request is sound")
 }

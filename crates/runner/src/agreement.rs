@@ -10,7 +10,7 @@ use spectra::Spectrum;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
 use crate::simulated::Simulated;
-use crate::spec::RegionsSpec;
+use crate::spec::{Bound, RegionsSpec};
 
 /// Both sides at one ε.
 pub struct Agreement {
@@ -88,13 +88,27 @@ fn regions(
 ) -> std::result::Result<Regions, clustering::ClusteringError> {
     let (n_nodes, groups) = (plan.network.n_nodes(), plan.network.groups());
     let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
-    let predicted =
-        RegionDistances::new(n_nodes, &nodes, distance)?.clusters(RegionThresholds {
-            within: spec.distance_within,
-            between: spec.distance_between,
-        })?;
-    let simulated = RegionDistances::new(n_nodes, &nodes, error)?
-        .clusters(RegionThresholds { within: spec.error_within, between: spec.error_between })?;
+    let predicted = RegionDistances::new(n_nodes, &nodes, &distance)?.clusters(thresholds(
+        [spec.distance_within, spec.distance_between],
+        n_nodes,
+        distance,
+    ))?;
+    let simulated = RegionDistances::new(n_nodes, &nodes, &error)?.clusters(thresholds(
+        [spec.error_within, spec.error_between],
+        n_nodes,
+        error,
+    ))?;
     let agreement = predicted.agreement(&simulated);
     Ok(Regions { predicted, simulated, agreement })
+}
+
+/// Bounds within and between regions as numbers.
+fn thresholds(
+    [within, between]: [Bound; 2],
+    n_nodes: usize,
+    of: impl Fn(usize, usize) -> f64,
+) -> RegionThresholds {
+    let pairs = || (0..n_nodes).flat_map(|i| (i + 1..n_nodes).map(move |j| (i, j)));
+    let largest = || pairs().map(|(i, j)| of(i, j)).fold(0.0, f64::max);
+    RegionThresholds { within: within.value(largest), between: between.value(largest) }
 }

@@ -159,6 +159,7 @@ fn seconds_per_step(plan: &Plan, sweep: &Sweep) -> f64 {
         schedule,
         observables: Observables::default(),
         kick: sweep.kick,
+        instruction_set: plan.msf.instruction_set,
     };
     let took = timed(|| on_one_thread(|| simulation.run(&replicas, &|_| ())));
     took.as_secs_f64() / (16.0 * schedule.steps() as f64)

@@ -1,17 +1,20 @@
 //! Claims: what the source says, what was obtained, and the verdict.
 
-use std::collections::BTreeSet;
+mod clusters;
+
 use std::fmt;
 
-use graph::Network;
+use clustering::RegionClusters;
+pub use clusters::labelled;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::agreement::Agreement;
 use crate::findings::Findings;
-use crate::plan::{Plan, nodes_named};
+use crate::plan::Plan;
 use crate::problem::{Problem, Result};
-use crate::spec::{ClaimSpec, Name, OneOrMany, Quantity};
+use crate::simulated::Simulated;
+use crate::spec::{ClaimSpec, OneOrMany, Quantity, Trend};
 
 /// A judged claim.
 #[derive(Clone, Debug, Serialize)]
@@ -70,7 +73,10 @@ impl Judge<'_> {
         let spec = self.spec;
         let (paper, obtained, tolerance, holds) = match spec.of {
             Quantity::Eigenvectors => self.eigenvectors()?,
-            Quantity::CascadeClusters | Quantity::SimulatedClusters => self.clusters()?,
+            Quantity::CascadeClusters
+            | Quantity::SimulatedClusters
+            | Quantity::PredictedRegions
+            | Quantity::SimulatedRegions => self.clusters()?,
             Quantity::CascadeOrder | Quantity::SimulatedOrder => self.order()?,
             _ => self.numbers()?,
         };
@@ -118,7 +124,17 @@ impl Judge<'_> {
                 all(&|x| x >= limit),
             ));
         }
-        let paper = self.equals::<OneOrMany>("a number or a list of numbers")?.into_list();
+        if let Some(trend) = self.spec.trend {
+            let (word, ordered): (_, fn(f64, f64) -> bool) = match trend {
+                Trend::Rises => ("rising", |a, b| a < b),
+                Trend::Falls => ("falling", |a, b| a > b),
+            };
+            let follows =
+                |pair: &[Option<f64>]| pair[0].zip(pair[1]).is_some_and(|(a, b)| ordered(a, b));
+            return Ok((json!(word), shown, "exact".into(), obtained.windows(2).all(follows)));
+        }
+        let paper = self.equals::<OneOrMany>("a number or a list of numbers")?;
+        let paper = paper.list();
         let (abs, rel) = (self.spec.abs_tol.unwrap_or(0.0), self.spec.rel_tol.unwrap_or(0.0));
         // A hair of slack: 4.2 ± 0.1 holds 4.1, whose difference is 0.10000000000000053.
         let near = |x: f64, expected: f64| {
@@ -127,7 +143,7 @@ impl Judge<'_> {
         let holds = obtained.len() == paper.len()
             && obtained
                 .iter()
-                .zip(&paper)
+                .zip(paper)
                 .all(|(x, &expected)| x.is_some_and(|x| near(x, expected)));
         let tolerance = match (abs > 0.0, rel > 0.0) {
             (true, true) => format!("± {abs} ± {} %", 100.0 * rel),
@@ -135,7 +151,7 @@ impl Judge<'_> {
             (false, true) => format!("± {} %", 100.0 * rel),
             (false, false) => "exact".into(),
         };
-        let paper = if let [single] = paper[..] { json!(single) } else { json!(paper) };
+        let paper = if let [single] = paper { json!(single) } else { json!(paper) };
         Ok((paper, shown, tolerance, holds))
     }
 
@@ -164,34 +180,68 @@ impl Judge<'_> {
                 vec![findings.simulated.as_ref().and_then(|s| s.onset(&clusters()).mean)]
             }
             Quantity::SimulatedError => {
-                let error = findings.simulated.as_ref().and_then(|simulated| {
-                    let position = simulated.position(at.epsilon?)?;
-                    Some(simulated.largest_cluster_error(position, &clusters()))
-                });
-                vec![error.filter(|error| error.is_finite())]
+                let clusters = clusters();
+                self.at_each_epsilon(|simulated, position| {
+                    let error = simulated.largest_cluster_error(position, &clusters);
+                    error.is_finite().then_some(error)
+                })
             }
-            Quantity::Nodes => vec![Some(self.plan.network.n_nodes() as f64)],
+            Quantity::Nodes => vec![Some(self.counted_nodes() as f64)],
             Quantity::Links => vec![Some(self.plan.network.n_links() as f64)],
             Quantity::Groups => vec![Some(self.plan.network.groups().len() as f64)],
-            Quantity::Pearson => vec![self.agreement(|a| Some(a.correlation?.pearson))],
-            Quantity::Spearman => vec![self.agreement(|a| Some(a.correlation?.spearman))],
-            Quantity::RandIndex => vec![self.agreement(|a| a.rand_index)],
+            Quantity::Pearson => self.agreements(|a| Some(a.correlation?.pearson)),
+            Quantity::Spearman => self.agreements(|a| Some(a.correlation?.spearman)),
+            Quantity::RandIndex => self.agreements(|a| a.rand_index),
             Quantity::RegionVerdicts => {
-                vec![self.agreement(|a| Some(a.regions.as_ref()?.agreement.verdict_fraction()))]
+                self.agreements(|a| Some(a.regions.as_ref()?.agreement.verdict_fraction()))
+            }
+            Quantity::PredictedGrey => {
+                self.agreements(|a| Some(grey_nodes(&a.regions.as_ref()?.predicted)))
+            }
+            Quantity::SimulatedGrey => {
+                self.agreements(|a| Some(grey_nodes(&a.regions.as_ref()?.simulated)))
+            }
+            Quantity::PredictedSize => {
+                self.agreements(|a| mean_cluster_size(&a.regions.as_ref()?.predicted))
+            }
+            Quantity::SimulatedSize => {
+                self.agreements(|a| mean_cluster_size(&a.regions.as_ref()?.simulated))
             }
             // Judged by their own functions.
             Quantity::Eigenvectors
             | Quantity::CascadeClusters
             | Quantity::SimulatedClusters
+            | Quantity::PredictedRegions
+            | Quantity::SimulatedRegions
             | Quantity::CascadeOrder
             | Quantity::SimulatedOrder => vec![],
         }
     }
 
-    /// A number of the agreement at the claim's ε.
-    fn agreement(&self, of: impl Fn(&Agreement) -> Option<f64>) -> Option<f64> {
-        let position = self.findings.simulated.as_ref()?.position(self.spec.at.epsilon?)?;
-        of(self.findings.agreement.get(position)?)
+    /// The nodes of the network, or of the groups that the claim is about.
+    fn counted_nodes(&self) -> usize {
+        let network = &self.plan.network;
+        let Some(prefix) = &self.spec.at.group_prefix else { return network.n_nodes() };
+        let groups = network.groups().iter().filter(|group| group.name.starts_with(prefix));
+        groups.map(|group| group.nodes.len()).sum()
+    }
+
+    /// A number of the simulations at each ε of the claim.
+    fn at_each_epsilon(&self, of: impl Fn(&Simulated, usize) -> Option<f64>) -> Vec<Option<f64>> {
+        let number = |&epsilon: &f64| {
+            let simulated = self.findings.simulated.as_ref()?;
+            of(simulated, simulated.position(epsilon)?)
+        };
+        self.epsilon().iter().map(number).collect()
+    }
+
+    /// A number of the agreement at each ε of the claim.
+    fn agreements(&self, of: impl Fn(&Agreement) -> Option<f64>) -> Vec<Option<f64>> {
+        self.at_each_epsilon(|_, position| of(self.findings.agreement.get(position)?))
+    }
+
+    fn epsilon(&self) -> &[f64] {
+        self.spec.at.epsilon.as_ref().map_or(&[], OneOrMany::list)
     }
 
     /// How well the obtained number is known, where that is known itself.
@@ -232,48 +282,6 @@ impl Judge<'_> {
         Ok((paper, shown, format!("≤ {allowed}"), distance <= allowed))
     }
 
-    fn clusters(&self) -> Result<(Value, Value, String, bool)> {
-        let paper: Vec<Vec<Name>> = self.equals("a list of clusters")?;
-        let epsilon = self.spec.at.epsilon.unwrap_or_default();
-        let obtained = match self.spec.of {
-            Quantity::CascadeClusters => self.findings.predicted_at(epsilon).cloned(),
-            _ => self.findings.simulated.as_ref().and_then(|simulated| {
-                simulated.position(epsilon).and_then(|position| simulated.clusters(position))
-            }),
-        };
-        let named: BTreeSet<BTreeSet<usize>> =
-            self.nodes(&paper).into_iter().map(|cluster| cluster.into_iter().collect()).collect();
-        let Some(obtained) = obtained else {
-            return Ok((json!(texts(&paper)), Value::Null, "exact".into(), false));
-        };
-        let clusters = obtained.nontrivial();
-        let found = clusters.iter().map(|cluster| cluster.iter().copied().collect()).collect();
-        let shown = labelled(&clusters, &self.plan.network);
-        Ok((json!(texts(&paper)), json!(shown), "exact".into(), named == found))
-    }
-
-    /// Positions of the clusters, from 1, in the order in which they are lost as ε falls.
-    fn order(&self) -> Result<(Value, Value, String, bool)> {
-        let paper: Vec<usize> = self.equals("a list of positions")?;
-        let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
-        let lost_at = |cluster: &Vec<usize>| match self.spec.of {
-            Quantity::CascadeOrder => self.findings.predicted_loss(cluster),
-            _ => self
-                .findings
-                .simulated
-                .as_ref()
-                .and_then(|s| s.onset(std::slice::from_ref(cluster)).mean),
-        };
-        let lost: Option<Vec<f64>> = clusters.iter().map(lost_at).collect();
-        let Some(lost) = lost else {
-            return Ok((json!(paper), Value::Null, "exact".into(), false));
-        };
-        let mut order: Vec<usize> = (1..=clusters.len()).collect();
-        order.sort_by(|a, b| lost[b - 1].total_cmp(&lost[a - 1]));
-        let holds = order == paper;
-        Ok((json!(paper), json!(order), "exact".into(), holds))
-    }
-
     fn equals<T: serde::de::DeserializeOwned>(&self, expected: &str) -> Result<T> {
         let problem = || self.problem(&format!("needs `equals` to be {expected}"));
         self.spec.equals.clone().ok_or_else(problem)?.try_into().map_err(|_| problem())
@@ -282,23 +290,16 @@ impl Judge<'_> {
     fn problem(&self, message: &str) -> Problem {
         Problem::with_key(&self.plan.file, &format!("claims.{}", self.name), message)
     }
-
-    /// Node numbers of labels that the plan has checked.
-    fn nodes(&self, clusters: &[Vec<Name>]) -> Vec<Vec<usize>> {
-        let network = &self.plan.network;
-        let nodes = |cluster: &Vec<Name>| {
-            cluster.iter().filter_map(|name| nodes_named(network, name)).flatten().collect()
-        };
-        clusters.iter().map(nodes).collect()
-    }
 }
 
-fn texts(clusters: &[Vec<Name>]) -> Vec<Vec<&str>> {
-    clusters.iter().map(|cluster| cluster.iter().map(|name| name.0.as_str()).collect()).collect()
+/// Nodes whose regions do not synchronise, or that belong to none.
+fn grey_nodes(regions: &RegionClusters) -> f64 {
+    regions.cluster_of_node().iter().filter(|cluster| cluster.is_none()).count() as f64
 }
 
-/// Clusters of nodes as clusters of labels.
-pub fn labelled<'a>(clusters: &[Vec<usize>], network: &'a Network) -> Vec<Vec<&'a str>> {
-    let label = |&node: &usize| network.labels()[node].as_str();
-    clusters.iter().map(|cluster| cluster.iter().map(label).collect()).collect()
+/// Nodes of a cluster of regions in the mean; none where there is no cluster.
+fn mean_cluster_size(regions: &RegionClusters) -> Option<f64> {
+    let nodes = regions.cluster_of_node();
+    let coloured = nodes.iter().flatten().count() as f64;
+    (regions.n_clusters() > 0).then(|| coloured / regions.n_clusters() as f64)
 }

@@ -1,9 +1,10 @@
-//! The command line: `eigensync run`, `check`, `compare`, `list`.
+//! The command line: `eigensync run`, `predict`, `check`, `compare`, `list`.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
+use dynamics::InstructionSet;
 
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
@@ -12,7 +13,7 @@ use crate::plan;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, load, record, results, table};
+use crate::{check, claims, compare, findings, load, predict, record, results, table};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -42,9 +43,16 @@ enum Command {
         /// Threads to use; all processors by default. Results do not depend on it
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
+        /// Vector instructions to use; the best by default. Results do not depend on them
+        #[arg(long, value_name = "SET", value_parser = instruction_set, hide = true)]
+        instruction_set: Option<InstructionSet>,
         #[command(flatten)]
         folders: Folders,
     },
+    /// Predict the clusters of a network without an experiment file
+    ///
+    /// For example: eigensync predict roads.mtx --oscillator lorenz --coupling x:y
+    Predict(predict::Args),
     /// Say what experiments will do and cost, without running them
     Check {
         /// Experiment files
@@ -84,14 +92,13 @@ struct Folders {
 /// Runs a command; the result says whether everything held.
 pub fn run(cli: Cli) -> Result<bool> {
     match cli.command {
-        Command::Run { files, quick, threads, folders } => {
-            if let Some(threads) = threads {
-                rayon::ThreadPoolBuilder::new()
-                    .num_threads(usize::from(threads))
-                    .build_global()
-                    .map_err(|error| Problem::from_error("the threads cannot be started", error))?;
-            }
-            run_files(&files, quick, &folders)
+        Command::Run { files, quick, threads, instruction_set, folders } => {
+            use_threads(threads)?;
+            run_files(&files, quick, instruction_set, &folders)
+        }
+        Command::Predict(args) => {
+            use_threads(args.threads)?;
+            predict::run(&args).map(|()| true)
         }
         Command::Check { files, quick } => {
             for file in &files {
@@ -113,20 +120,51 @@ pub fn run(cli: Cli) -> Result<bool> {
     }
 }
 
+fn use_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|error| Problem::from_error("the threads cannot be started", error))
+}
+
+fn instruction_set(name: &str) -> std::result::Result<InstructionSet, String> {
+    let set = match name {
+        "baseline" => InstructionSet::Baseline,
+        "avx2" => InstructionSet::Avx2,
+        "avx512" => InstructionSet::Avx512,
+        _ => return Err("expected baseline, avx2 or avx512".into()),
+    };
+    if set.is_available() { Ok(set) } else { Err("this processor does not have it".into()) }
+}
+
 /// Plans all files before running any, so that a slip in the last one shows at once.
-fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> {
+fn run_files(
+    files: &[PathBuf],
+    quick: bool,
+    instruction_set: Option<InstructionSet>,
+    folders: &Folders,
+) -> Result<bool> {
     let started = Instant::now();
-    let (plans, left_out) = plan::all(files, quick)?;
+    let (mut plans, left_out) = plan::all(files, quick)?;
+    for plan in &mut plans {
+        plan.msf.instruction_set = instruction_set.unwrap_or(plan.msf.instruction_set);
+    }
     record::check_writable(&folders.results)?;
     let mut curves = findings::Curves::default();
     let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
+    let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
     for plan in &plans {
         check::warn(plan);
         let started = Instant::now();
-        let found = findings::find(plan, &mut curves, &Stages::new(&plan.id))?;
+        let stages = Stages::new(&plan.id);
+        let found = findings::find(plan, &mut curves, &stages)?;
         let claims = claims::judge(plan, &found)?;
-        let place = results::write(plan, &found, claims.clone(), started, &folders.results)?;
+        let clock = (started, &stages);
+        let place = results::write(plan, &found, claims.clone(), clock, &folders.results)?;
+        let (id, all) = (plan.id.clone(), started.elapsed());
+        times.push(table::Times { id, stages: stages.took(), all });
         eprintln!("{}: {} in {}", plan.id, place.display(), seconds(started.elapsed()));
         judged.push((plan.id.clone(), claims));
         if plan.figure().kind != FigureKind::Sweep {
@@ -140,6 +178,9 @@ fn run_files(files: &[PathBuf], quick: bool, folders: &Folders) -> Result<bool> 
     let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
     if let Some(table) = table::agreement(rows) {
         say!("{table}\n");
+    }
+    if plans.len() > 1 {
+        say!("{}\n", table::times(&times));
     }
     let all = || judged.iter().flat_map(|(_, claims)| claims);
     for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {

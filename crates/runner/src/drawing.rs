@@ -2,11 +2,10 @@
 //! coloured by clusters, errors against ε with the predicted critical couplings marked, and Λ(σ).
 //! `drawing/pairs` has the other kinds.
 
+mod cascade;
 mod pairs;
 
 pub use pairs::error_matrix;
-
-use std::ops::Range;
 
 use crate::figures::{
     Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
@@ -20,6 +19,9 @@ use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
 /// Resolution of the PNG: what journals ask for.
 pub const DOTS_PER_INCH: f64 = 300.0;
 
+/// Up to this many nodes a network is drawn with its links.
+const DRAWN_NODES: usize = 1000;
+
 /// The figure of the kind that the experiment asks for.
 pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
     match (plan.figure().kind, &findings.simulated) {
@@ -29,7 +31,7 @@ pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
     }
 }
 
-/// The network above Λ(σ) at the left, the sweep (if there is one) at the right.
+/// The network above Λ(σ) at the left; at the right the sweep or, without one, the predicted states.
 fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     let letter = |number: usize| format!("({}{number})", plan.figure().letter);
     let left = |row: usize, number: usize, content: Content| Panel {
@@ -38,21 +40,23 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
         columns: 0..1,
         content,
     };
-    let clusters = shown_clusters(plan, findings);
-    let network = network(plan, &clusters);
-    let mut panels = vec![left(0, 1, Content::Network(network))];
+    let mut panels = vec![left(0, 1, network_or_spectrum(plan, findings))];
+    let lines = match (&plan.sweep, &findings.simulated) {
+        (Some(sweep), Some(simulated)) => Some(errors(plan, sweep, simulated, findings)),
+        _ => None,
+    };
+    let content = match lines {
+        Some(lines) if !lines.series.is_empty() => Some(Content::Lines(lines)),
+        // Without a sweep, or where no errors were asked for, or every run escaped.
+        _ if findings.cascade.is_empty() => None,
+        _ => Some(Content::Cascade(cascade::panel(plan, findings))),
+    };
     let mut columns = vec![1.0];
-    if let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) {
-        let lines = errors(plan, sweep, simulated, findings);
-        // There is nothing to show where no errors were asked for, or where every run escaped.
-        if !lines.series.is_empty() {
-            let (rows, content): (Range<usize>, _) = (0..2, Content::Lines(lines));
-            panels.push(Panel { letter: letter(2), rows, columns: 1..2, content });
-            columns.push(1.7);
-        }
+    if let Some(content) = content {
+        panels.push(Panel { letter: letter(2), rows: 0..2, columns: 1..2, content });
+        columns.push(1.7);
     }
-    let number = panels.len() + 1;
-    panels.push(left(1, number, Content::Lines(msf(findings))));
+    panels.push(left(1, panels.len() + 1, Content::Lines(msf(findings))));
     Figure {
         title: plan.experiment.title.clone(),
         width_mm: if columns.len() > 1 { 170.0 } else { 75.0 },
@@ -60,6 +64,29 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
         columns,
         rows: vec![1.0, 0.95],
         panels,
+    }
+}
+
+/// The network coloured by clusters or, where it is too large to be seen, its leading eigenvalues.
+fn network_or_spectrum(plan: &Plan, findings: &Findings) -> Content {
+    if plan.network.n_nodes() > DRAWN_NODES {
+        return Content::Lines(spectrum(findings));
+    }
+    Content::Network(network(plan, &shown_clusters(plan, findings)))
+}
+
+/// λ_k against k.
+fn spectrum(findings: &Findings) -> LinePanel {
+    let eigenvalues = &findings.spectrum.eigenvalues;
+    LinePanel {
+        x_label: Label::text("mode ").with_math("k"),
+        y_label: Label::math("λ").subscript("k"),
+        series: vec![Series {
+            x: (1..=eigenvalues.len()).map(|k| k as f64).collect(),
+            y: eigenvalues.clone(),
+            ..Series::default()
+        }],
+        ..LinePanel::default()
     }
 }
 

@@ -108,6 +108,7 @@ fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
         schedule: sweep.schedule,
         observables: sweep.observables.clone(),
         kick: sweep.kick,
+        instruction_set: plan.msf.instruction_set,
     };
     let runs = stages
         .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))

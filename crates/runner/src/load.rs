@@ -13,18 +13,22 @@ const MAX_QUOTED_CHARS: usize = 60;
 
 /// Reads and parses an experiment file. With it comes what is written there, for the record.
 pub fn experiment(path: &Path) -> Result<(Experiment, serde_json::Value)> {
-    let text = read(path)?;
-    let parsed = toml::from_str(&text).and_then(|spec| Ok((spec, toml::from_str(&text)?)));
+    parse(&read(path)?, path)
+}
+
+/// The text of a file as of [`experiment`].
+pub fn parse(text: &str, path: &Path) -> Result<(Experiment, serde_json::Value)> {
+    let parsed = toml::from_str(text).and_then(|spec| Ok((spec, toml::from_str(text)?)));
     parsed.map_err(|error: toml::de::Error| {
         let span = error.span().unwrap_or(0..0);
-        let problem = match DeTable::parse(&text) {
-            Ok(table) => explain(error.message().trim_end(), table.get_ref(), &span, &text),
+        let problem = match DeTable::parse(text) {
+            Ok(table) => explain(error.message().trim_end(), table.get_ref(), &span, text),
             Err(_) => {
-                let (line, message) = (line_at(&text, span.start), invalid(error.message()));
+                let (line, message) = (line_at(text, span.start), invalid(error.message()));
                 Problem::new(format!("`{line}` is not valid TOML: {message}"))
             }
         };
-        problem.at(place(path, &text, span.start))
+        problem.at(place(path, text, span.start))
     })
 }
 

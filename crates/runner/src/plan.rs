@@ -15,9 +15,12 @@ use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
 pub use network::nodes_named;
+use serde_json::Value;
 
 use crate::problem::{Problem, Result};
-use crate::spec::{Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr};
+use crate::spec::{
+    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr,
+};
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
@@ -37,7 +40,7 @@ pub struct Plan {
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
-    pub written: serde_json::Value,
+    pub written: Value,
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
@@ -58,7 +61,7 @@ pub struct Sweep {
     pub method: Method,
     pub schedule: Schedule,
     pub observables: Observables,
-    pub synchronised_below: f64,
+    pub synchronised_below: Bound,
     pub kick: f64,
 }
 
@@ -108,7 +111,15 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> 
 
 /// Checks an experiment file and reads what it names.
 pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
-    let (experiment, written) = crate::load::experiment(file)?;
+    of(crate::load::experiment(file)?, file, quick)
+}
+
+/// The same for the text of an experiment file that would be called so.
+pub fn of_text(text: &str, file: &Path, quick: bool) -> Result<Plan> {
+    of(crate::load::parse(text, file)?, file, quick)
+}
+
+fn of((experiment, written): (Experiment, Value), file: &Path, quick: bool) -> Result<Plan> {
     let id = file
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
@@ -134,6 +145,7 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
         experiment: experiment.clone(),
         written,
     };
+    checker.regions(&plan.network)?;
     checker.figure(&plan.network)?;
     checker.claims(&plan)?;
     Ok(plan)
@@ -202,11 +214,11 @@ impl Checker<'_> {
             WordOr::Word(_) => (spectra::Modes::All, n_nodes),
             WordOr::Number(modes) => {
                 let modes = usize::try_from(modes).unwrap_or(usize::MAX);
-                if modes == 0 || modes > n_nodes {
-                    let message = format!("is {modes}, but the network has modes 1 to {n_nodes}");
-                    return Err(self.problem("spectrum.modes", message));
+                if modes == 0 {
+                    return Err(self.problem("spectrum.modes", "is 0, but must be 1 or more"));
                 }
-                (spectra::Modes::Leading(modes), modes)
+                // A network that has no more shows all of its modes.
+                (spectra::Modes::Leading(modes.min(n_nodes)), modes.min(n_nodes))
             }
         };
         let solver = match spec.solver {
@@ -276,6 +288,7 @@ impl Checker<'_> {
                 ..msf::Refinement::default()
             },
             seed: self.experiment.seed,
+            instruction_set: dynamics::InstructionSet::best(),
         })
     }
 
@@ -318,6 +331,7 @@ impl Checker<'_> {
         if clusters.is_empty() && reference.is_none() && network.n_nodes() > 1 {
             clusters.push((0..network.n_nodes()).collect());
         }
+        self.bound("sweep.synchronised_below", spec.synchronised_below, pairs)?;
         let first = self.experiment.seed;
         Ok(Sweep {
             epsilon,
@@ -337,7 +351,6 @@ impl Checker<'_> {
         self.not_negative("sweep.transient", spec.transient)?;
         self.positive("sweep.average", spec.average)?;
         self.positive("sweep.tolerance", spec.tolerance)?;
-        self.positive("sweep.synchronised_below", spec.synchronised_below)?;
         self.positive("sweep.stride", f64::from(spec.stride))?;
         self.positive("sweep.seeds", spec.seeds as f64)?;
         let schedule = Schedule {

@@ -1,24 +1,31 @@
 //! Progress of the stages of a run on the terminal, with an estimate of the time left; silent when
-//! standard error is not a terminal.
+//! standard error is not a terminal. How long each stage took is kept.
 
-use std::time::Duration;
+use std::cell::RefCell;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Shows the stages of one experiment.
 pub struct Stages {
     id: String,
+    took: RefCell<Vec<(String, Duration)>>,
 }
 
 impl Stages {
     pub fn new(id: &str) -> Self {
-        Self { id: id.to_owned() }
+        Self { id: id.to_owned(), took: RefCell::default() }
+    }
+
+    /// The stages so far, in order, with their times.
+    pub fn took(&self) -> Vec<(String, Duration)> {
+        self.took.borrow().clone()
     }
 
     /// Runs a stage whose length is not known beforehand.
     pub fn unmeasured<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
         let bar = self.bar(stage, "{prefix} {spinner} {elapsed}", None);
-        let result = work();
+        let result = self.timed(stage, work);
         bar.finish_and_clear();
         result
     }
@@ -32,14 +39,22 @@ impl Stages {
     ) -> T {
         let template = "{prefix} [{bar:30}] {percent:>3} %  {elapsed} so far, about {eta} left";
         let bar = self.bar(stage, template, Some(steps));
-        let result = work(&|done| {
+        let report = |done| {
             // A stage that turns out longer than planned stretches its bar.
             if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
                 bar.inc_length(done);
             }
             bar.inc(done);
-        });
+        };
+        let result = self.timed(stage, || work(&report));
         bar.finish_and_clear();
+        result
+    }
+
+    fn timed<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
+        let started = Instant::now();
+        let result = work();
+        self.took.borrow_mut().push((stage.to_owned(), started.elapsed()));
         result
     }
 

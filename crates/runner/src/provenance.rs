@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use indexmap::IndexMap;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
@@ -20,20 +21,28 @@ pub struct Provenance {
     pub plan_hash: String,
     /// Vector instructions the processor has; no result depends on them.
     pub host_features: Vec<&'static str>,
+    /// Those that were used.
+    pub instruction_set: &'static str,
     pub threads: usize,
     pub wall_time_s: f64,
+    /// Of this, what each stage took.
+    pub stages_s: IndexMap<String, f64>,
 }
 
 impl Provenance {
-    pub fn new(plan: &Plan, took: Duration) -> Self {
+    /// Of a run that took so long in all and in its stages.
+    pub fn new(plan: &Plan, (took, stages): (Duration, &[(String, Duration)])) -> Self {
+        let seconds = |time: Duration| (time.as_secs_f64() * 1e3).round() / 1e3;
         Self {
             version: env!("CARGO_PKG_VERSION"),
             commit: env!("EIGENSYNC_COMMIT"),
             seed: plan.experiment.seed,
             plan_hash: plan_hash(plan),
             host_features: host_features(),
+            instruction_set: plan.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
-            wall_time_s: (took.as_secs_f64() * 1e3).round() / 1e3,
+            wall_time_s: seconds(took),
+            stages_s: stages.iter().map(|(name, time)| (name.clone(), seconds(*time))).collect(),
         }
     }
 }

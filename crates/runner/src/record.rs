@@ -16,6 +16,9 @@ use crate::problem::{Problem, Result};
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{Onset, OverSeeds, completed};
 
+/// Up to this many nodes a summary names the nodes of every cluster.
+const LISTED_NODES: usize = 5000;
+
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
 #[derive(Serialize)]
 pub struct Summary {
@@ -109,8 +112,12 @@ pub struct CriticalRecord {
 pub struct StateRecord {
     pub epsilon: (f64, Option<f64>),
     pub unstable_modes: Vec<usize>,
-    /// Clusters of two nodes or more.
-    pub clusters: Vec<Vec<String>>,
+    /// Number of clusters of two nodes or more, and of nodes in none.
+    pub n_clusters: usize,
+    pub n_alone: usize,
+    /// These clusters, for networks of up to 5000 nodes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clusters: Option<Vec<Vec<String>>>,
     /// From which ε on the simulation shows these clusters; none without simulation or clusters.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub simulated_onset: Option<Onset>,
@@ -160,7 +167,12 @@ pub struct RegionRecord {
 }
 
 /// Collects a summary.
-pub fn summarise(plan: &Plan, findings: &Findings, claims: Vec<Claim>, took: Duration) -> Summary {
+pub fn summarise(
+    plan: &Plan,
+    findings: &Findings,
+    claims: Vec<Claim>,
+    took: (Duration, &[(String, Duration)]),
+) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
     Summary {
         id: plan.id.clone(),
@@ -258,7 +270,9 @@ fn state_records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
         StateRecord {
             epsilon: state.epsilon,
             unstable_modes: state.unstable_modes.iter().map(|mode| mode + 1).collect(),
-            clusters: named(&clusters, plan),
+            n_clusters: clusters.len(),
+            n_alone: plan.network.n_nodes() - clusters.iter().map(Vec::len).sum::<usize>(),
+            clusters: (plan.network.n_nodes() <= LISTED_NODES).then(|| named(&clusters, plan)),
             simulated_onset: observed.map(|simulated| simulated.onset(&clusters)),
         }
     };

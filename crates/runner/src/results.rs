@@ -10,6 +10,7 @@ use crate::drawing;
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
+use crate::progress::Stages;
 use crate::record::{Folder, summarise};
 use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
@@ -22,7 +23,7 @@ pub fn write(
     plan: &Plan,
     findings: &Findings,
     claims: Vec<Claim>,
-    started: Instant,
+    (started, stages): (Instant, &Stages),
     results: &Path,
 ) -> Result<PathBuf> {
     let folder = Folder::start(results, &plan.id)?;
@@ -35,13 +36,14 @@ pub fn write(
     let failed = |error: &dyn std::fmt::Display| {
         Problem::from_error("the figure cannot be drawn", error).in_file(&plan.file)
     };
-    let svg = drawing::figure(plan, findings).svg().map_err(|error| failed(&error))?;
-    folder.write(
-        "figure.png",
-        crate::figures::png(&svg, drawing::DOTS_PER_INCH).map_err(|error| failed(&error))?,
-    )?;
+    let (svg, png) = stages.unmeasured("figure", || {
+        let svg = drawing::figure(plan, findings).svg().map_err(|error| failed(&error))?;
+        let png = crate::figures::png(&svg, drawing::DOTS_PER_INCH).map_err(|e| failed(&e))?;
+        Ok((svg, png))
+    })?;
+    folder.write("figure.png", png)?;
     folder.write("figure.svg", svg)?;
-    let summary = summarise(plan, findings, claims, started.elapsed());
+    let summary = summarise(plan, findings, claims, (started.elapsed(), &stages.took()));
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;

@@ -1,20 +1,26 @@
 //! What a sweep of simulations shows: errors over ε and seeds, clusters, and where these set in.
 //!
-//! "Synchronised" is defined once: two nodes are when δx_ij < `synchronised_below`, a cluster is when
-//! δx^c_m is. Clusters at one ε come from the mean over seeds by single linkage; the onset of a
-//! cluster is found in every seed by itself and its spread over seeds reported.
+//! "Synchronised" is defined once: two nodes are when δx_ij is below a bound, a cluster is when δx^c_m
+//! is. The bound is `synchronised_below`, a number or a fraction of the largest δx_ij at the same ε
+//! (a mean over seeds). Clusters at one ε come from the mean over seeds by single linkage; the onset
+//! of a cluster is found in every seed by itself and its spread over seeds reported.
 
 use clustering::Partition;
 use dynamics::{Errors, Estimate, Outcome, Run};
 
 use crate::plan::Sweep;
+use crate::spec::Bound;
+
+/// Errors below this, in units of the component, are what rounding and kicks leave of perfect
+/// synchrony: nodes that far apart are together, whatever fraction of the largest error it is.
+const PERFECT_SYNCHRONY: f64 = 1e-9;
 
 /// The runs of a sweep, seed by seed within each ε.
 pub struct Simulated {
     pub epsilon: Vec<f64>,
     pub seeds: Vec<u64>,
     pub runs: Vec<Run>,
-    pub synchronised_below: f64,
+    synchronised_below: Bound,
     n_nodes: usize,
 }
 
@@ -40,6 +46,11 @@ impl MeanPairs {
     /// δx_ij, zero for i = j.
     pub fn of(&self, i: usize, j: usize) -> f64 {
         if i == j { 0.0 } else { self.means[dynamics::pair_index(i, j, self.n_nodes)] }
+    }
+
+    /// The largest of all.
+    pub fn largest(&self) -> f64 {
+        self.means.iter().copied().fold(0.0, f64::max)
     }
 }
 
@@ -119,12 +130,18 @@ impl Simulated {
         Some(MeanPairs { n_nodes: self.n_nodes, means: (0..first.pairs.len()).map(mean).collect() })
     }
 
+    /// Below which errors at one ε count as synchrony.
+    pub fn bound(&self, position: usize) -> f64 {
+        let largest = || self.mean_pairs(position).map_or(0.0, |mean| mean.largest());
+        self.synchronised_below.value(largest).max(PERFECT_SYNCHRONY)
+    }
+
     /// Clusters at one ε: single linkage of the mean δx_ij over seeds. None unless pairs were observed
     /// and a run stayed bounded.
     pub fn clusters(&self, position: usize) -> Option<Partition> {
         let mean = self.mean_pairs(position)?;
-        // Below, not at: a threshold belongs to those that are not synchronised.
-        let threshold = self.synchronised_below.next_down();
+        // Below, not at: a bound belongs to those that are not synchronised.
+        let threshold = self.bound(position).next_down();
         Some(Partition::single_linkage(self.n_nodes, |i, j| mean.of(i, j), threshold))
     }
 
@@ -156,9 +173,10 @@ impl Simulated {
     /// From which ε on all of these clusters stay synchronised: midway between the largest ε of the
     /// sweep at which one of them is not, and the next.
     pub fn onset(&self, clusters: &[Vec<usize>]) -> Onset {
+        let bounds: Vec<f64> = (0..self.epsilon.len()).map(|at| self.bound(at)).collect();
         let synchronised = |position: usize, seed: usize| {
             let run = &self.at(position)[seed];
-            clusters.iter().all(|c| self.cluster_error(run, c) < self.synchronised_below)
+            clusters.iter().all(|c| self.cluster_error(run, c) < bounds[position])
         };
         let of_seed = |seed| {
             let last_lost = (0..self.epsilon.len()).rev().find(|&at| !synchronised(at, seed));
@@ -215,7 +233,7 @@ mod tests {
             runs: runs.collect(),
             epsilon,
             seeds: vec![1, 2],
-            synchronised_below: 0.1,
+            synchronised_below: Bound::Fixed(0.1),
             n_nodes: 2,
         }
     }
@@ -236,6 +254,15 @@ mod tests {
         let onset = sweep.onset(&[vec![0, 1]]);
         assert_eq!(onset.of_seeds, [None, Some(0.5)]);
         assert_eq!(onset.mean, None);
+    }
+
+    #[test]
+    fn a_relative_bound_follows_the_largest_error_down_to_perfect_synchrony() {
+        let mut sweep = simulated(&[[4.0, 2.0], [1e-12, 3e-12]]);
+        sweep.synchronised_below = Bound::OfLargest(0.1);
+        assert_eq!(sweep.bound(0), 0.1 * 3.0);
+        assert_eq!(sweep.bound(1), PERFECT_SYNCHRONY);
+        assert_eq!(sweep.clusters(1).unwrap().nontrivial(), [vec![0, 1]]);
     }
 
     #[test]

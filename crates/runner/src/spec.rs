@@ -7,7 +7,7 @@ mod claim;
 mod network;
 mod values;
 
-pub use claim::{ClaimSpec, OneOrMany, Quantity};
+pub use claim::{ClaimSpec, OneOrMany, Quantity, Trend};
 use dynamics::Model;
 use indexmap::IndexMap;
 pub use network::{
@@ -15,7 +15,7 @@ pub use network::{
     RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::Deserialize;
-pub use values::{All, EvenGrid, Exact, Grid, Layout, Name, WordOr};
+pub use values::{All, Bound, EvenGrid, Exact, Grid, Layout, Name, WordOr};
 
 /// An experiment: one network, one oscillator, one question.
 #[derive(Clone, Debug, Deserialize)]
@@ -62,8 +62,9 @@ pub struct CouplingSpec {
     pub to: String,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
+#[value(rename_all = "snake_case")]
 pub enum MatrixKind {
     /// w_ij = a_ij.
     Laplacian,
@@ -155,9 +156,8 @@ pub struct SweepSpec {
     /// measured over the whole network.
     #[serde(default)]
     pub clusters: Vec<Vec<Name>>,
-    /// Two nodes count as synchronised when δx_ij is below this, and a cluster when δx^c_m is, in the
-    /// units of the component.
-    pub synchronised_below: f64,
+    /// Two nodes count as synchronised when δx_ij is below this, and a cluster when δx^c_m is.
+    pub synchronised_below: Bound,
 }
 
 #[derive(Clone, Copy, Debug, Default, Deserialize)]

@@ -1,7 +1,10 @@
 //! The table of claims, and numbers as people read them.
 
+use std::time::Duration;
+
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{ContentArrangement, Table};
+use indexmap::IndexSet;
 use serde_json::Value;
 
 use crate::agreement::Agreement;
@@ -70,6 +73,32 @@ pub fn agreement<'a>(
     (!is_empty).then(|| table.to_string())
 }
 
+/// The time that an experiment took.
+pub struct Times {
+    pub id: String,
+    pub stages: Vec<(String, Duration)>,
+    pub all: Duration,
+}
+
+/// Where the time of each experiment went: its stages, and all of it.
+pub fn times(of: &[Times]) -> String {
+    let stages: IndexSet<&str> =
+        of.iter().flat_map(|times| times.stages.iter().map(|(name, _)| name.as_str())).collect();
+    let seconds = |time: Duration| format!("{:.1} s", time.as_secs_f64());
+    let mut table = Table::new();
+    table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header(["experiment"].into_iter().chain(stages.iter().copied()).chain(["in all"]));
+    for Times { id, stages: took, all } in of {
+        let time = |stage: &&str| {
+            let found = took.iter().find(|(name, _)| name == stage);
+            found.map_or_else(String::new, |(_, time)| seconds(*time))
+        };
+        let times = stages.iter().map(time);
+        table.add_row([id.clone()].into_iter().chain(times).chain([seconds(*all)]));
+    }
+    table.to_string()
+}
+
 /// A value with numbers of four significant digits and clusters in braces.
 pub fn readable(value: &Value) -> String {
     match value {
@@ -96,7 +125,8 @@ fn joined(list: &[Value], separator: &str) -> String {
     entries.join(separator)
 }
 
-fn four_digits(number: f64) -> String {
+/// A number with four significant digits, counts whole.
+pub fn four_digits(number: f64) -> String {
     // A zero eigenvalue is computed as 1e-16 or so.
     if number.abs() < 1e-12 {
         return "0".into();
@@ -104,11 +134,19 @@ fn four_digits(number: f64) -> String {
     if number.abs() < 1e-4 {
         return format!("{number:.1e}");
     }
+    // Counts are shown whole.
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        return format!("{number}");
+    }
     let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
 
-fn two_digits(number: f64) -> String {
+/// A number with two significant digits.
+pub fn two_digits(number: f64) -> String {
+    if number != 0.0 && number.abs() < 1e-5 {
+        return format!("{number:.1e}");
+    }
     let digits = format!("{number:.1e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
@@ -125,5 +163,6 @@ mod tests {
         assert_eq!(readable(&json!([-0.0, -2.0, -14.034_567])), "0, -2, -14.03");
         assert_eq!(readable(&json!([["1", "2"], ["3", "4"]])), "{1,2} {3,4}");
         assert_eq!(readable(&json!([])), "none");
+        assert_eq!(readable(&json!(17865.0)), "17865");
     }
 }

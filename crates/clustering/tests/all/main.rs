@@ -2,8 +2,14 @@
 
 mod agreement;
 mod cascade;
+mod cascade_tree;
 mod correlation;
 mod distance;
+mod equitability;
 mod fixtures;
+mod large;
+#[path = "../../benches/clusters/fixtures.rs"]
+mod large_fixtures;
 mod partition;
 mod regions;
+mod robustness;

@@ -8,10 +8,14 @@
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 
+use crate::kernel::WIDTH;
 use crate::kicks::Kicks;
-use crate::network::{NetworkFlow, Outcome, Replica, Simulation, bounded, initial_lanes};
 use crate::observables::ErrorSums;
-use crate::{DynamicsError, Lanes, Oscillator, Progress};
+use crate::random::initial_states;
+use crate::{
+    Coupling, DynamicsError, ESCAPE_RADIUS, Oscillator, Outcome, Progress, Replica, Simulation,
+    SparseMatrix,
+};
 
 /// Order of the adaptive method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,43 +39,43 @@ pub struct Adaptive {
 
 /// Runs one replica to its end.
 pub(crate) fn run<O: Oscillator<D>, const D: usize>(
-    flow: &NetworkFlow<'_, O, D>,
+    oscillator: O,
     simulation: &Simulation<'_>,
     method: Adaptive,
     replica: Replica,
     progress: Progress<'_>,
 ) -> Result<Outcome, DynamicsError> {
-    let (schedule, n_nodes) = (&simulation.schedule, flow.n_nodes());
-    let system = Flat { flow, epsilon: replica.epsilon };
-    let start = initial_lanes::<O, D, 1>(n_nodes, [replica.seed]);
-    let mut y = DVector::from_iterator(D * n_nodes, start.iter().flatten().map(|x| x.0[0]));
-    let mut kicks = Kicks::new(simulation.kick, schedule.sampling_interval(), [replica]);
-    let mut sums =
-        ErrorSums::<1>::new(&simulation.observables, n_nodes, schedule.samples_per_block());
+    let Simulation { schedule, observables, coupling, matrix, kick, .. } = simulation;
+    let n_nodes = matrix.rows();
+    let system = Flat::<O, D> { oscillator, coupling: *coupling, matrix, epsilon: replica.epsilon };
+    let start = initial_states::<O, D>(n_nodes, replica.seed);
+    let mut y = DVector::from_fn(D * n_nodes, |row, _| start[row % n_nodes][row / n_nodes]);
+    let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), [replica]);
+    let mut sums = ErrorSums::<1>::new(observables, n_nodes, schedule.samples_per_block());
     for sample in 1..=schedule.transient_samples() + schedule.samples() {
         let solved = method.advance(&system, &mut y, schedule.sampling_interval());
-        let state: [Vec<Lanes<1>>; D] = std::array::from_fn(|c| {
-            y.rows(c * n_nodes, n_nodes).iter().map(|&x| Lanes([x])).collect()
-        });
-        let state: [&[_]; D] = std::array::from_fn(|c| &state[c][..]);
         let time = schedule.time_of(sample);
-        if bounded(state) == [false] {
+        if !y.iter().all(|x| x.abs() < ESCAPE_RADIUS) {
             return Ok(Outcome::Escaped { time });
         }
         solved.map_err(|reason| DynamicsError::Adaptive { time, reason: reason.to_string() })?;
         if sample > schedule.transient_samples() {
-            sums.sample(state);
+            sums.sample(runs(&y.as_slice()[observables.component * n_nodes..][..n_nodes]).iter());
         }
         if kicks.due(sample) {
-            for y in y.iter_mut() {
-                let mut kicked = Lanes([*y]);
-                kicks.apply(&mut kicked);
-                [*y] = kicked.0;
-            }
+            y.iter_mut().for_each(|y| kicks.apply(std::array::from_mut(y)));
         }
         progress(u64::from(schedule.stride));
     }
     Ok(Outcome::Completed(sums.errors(0)))
+}
+
+/// Numbers cut into runs, the last filled up with zeros.
+fn runs(numbers: &[f64]) -> Vec<[f64; WIDTH]> {
+    let run = |numbers: &[f64]| {
+        std::array::from_fn(|place| numbers.get(place).copied().unwrap_or_default())
+    };
+    numbers.chunks(WIDTH).map(run).collect()
 }
 
 impl Adaptive {
@@ -103,27 +107,25 @@ impl Adaptive {
 }
 
 /// A network at one coupling as one flat system: all nodes of the first component, then the next.
+#[derive(Clone, Copy)]
 struct Flat<'a, O, const D: usize> {
-    flow: &'a NetworkFlow<'a, O, D>,
+    oscillator: O,
+    coupling: Coupling,
+    matrix: &'a SparseMatrix,
     epsilon: f64,
 }
 
-impl<O, const D: usize> Clone for Flat<'_, O, D> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<O, const D: usize> Copy for Flat<'_, O, D> {}
-
 impl<O: Oscillator<D>, const D: usize> System<f64, DVector<f64>> for Flat<'_, O, D> {
     fn system(&self, _time: f64, y: &DVector<f64>, slope: &mut DVector<f64>) {
-        let n_nodes = self.flow.n_nodes();
-        let state = std::array::from_fn(|c| &y.as_slice()[c * n_nodes..(c + 1) * n_nodes]);
-        for node in 0..n_nodes {
-            for (c, value) in self.flow.at(node, state, self.epsilon).into_iter().enumerate() {
+        let n_nodes = self.matrix.rows();
+        let source = &y.as_slice()[self.coupling.from * n_nodes..][..n_nodes];
+        for (node, row) in self.matrix.outer_iterator().enumerate() {
+            let flow = self.oscillator.flow(std::array::from_fn(|c| y[c * n_nodes + node]));
+            for (c, value) in flow.into_iter().enumerate() {
                 slope[c * n_nodes + node] = value;
             }
+            let input: f64 = row.iter().map(|(j, &w)| w * source[j]).sum();
+            slope[self.coupling.to * n_nodes + node] += self.epsilon * input;
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Figures of predictions above simulations, one column for each ε: matrices of δe_ij and δx_ij
 //! (the paper's Figs. 2 to 4), or nodes in space coloured by clusters of regions (its Fig. 5).
 
-use crate::agreement::Agreement;
+use clustering::{Partition, maximum_overlap};
+
+use crate::agreement::{Agreement, Regions};
 use crate::figures::{
-    Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, PositionsPanel,
+    Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
     components_panel, pairs_figure,
 };
 use crate::findings::Findings;
@@ -29,15 +31,23 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
             errors(plan, simulated, agreement, position),
         ]
     });
-    let clusters: Vec<Vec<usize>> =
-        plan.network.groups().iter().map(|group| group.nodes.clone()).collect();
     Comparison {
         title: plan.experiment.title.clone(),
-        network: super::network(plan, &clusters),
+        network: grouped_network(plan),
         eigenvectors: components_panel(&modes, &groups),
         matrices: matrices.collect(),
     }
     .figure()
+}
+
+/// The network coloured by its groups, which keep their names.
+fn grouped_network(plan: &Plan) -> NetworkPanel {
+    let groups = plan.network.groups();
+    let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
+    NetworkPanel {
+        cluster_labels: groups.iter().map(|group| Label::text(group.name.as_str())).collect(),
+        ..super::network(plan, &nodes)
+    }
 }
 
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
@@ -53,10 +63,62 @@ pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figur
     };
     let columns = descending(simulated).filter_map(|position| {
         let regions = findings.agreement.get(position)?.regions.as_ref()?;
-        let sides = [regions.predicted.cluster_of_node(), regions.simulated.cluster_of_node()];
-        Some(sides.map(|clusters| panel(position, clusters)))
+        Some(colours(regions).map(|clusters| panel(position, clusters)))
     });
     pairs_figure(plan.experiment.title.clone(), columns.collect())
+}
+
+/// Colours of nodes on both sides: predicted clusters by falling size, and for each simulated cluster
+/// the colour of the predicted one that it overlaps most.
+fn colours(regions: &Regions) -> [Vec<Option<usize>>; 2] {
+    let sides = [regions.predicted.cluster_of_node(), regions.simulated.cluster_of_node()];
+    let [predicted, simulated] = &sides;
+    let (one, other): (Vec<usize>, Vec<usize>) =
+        predicted.iter().zip(simulated).filter_map(|(a, b)| a.zip(*b)).unzip();
+    let matches =
+        maximum_overlap(&Partition::from_marks(&one), &Partition::from_marks(&other)).matches;
+    // Partitions number clusters by their first node.
+    let (one, other) = (in_order_of_appearance(&one), in_order_of_appearance(&other));
+    let of_predicted = by_falling_size(predicted, regions.predicted.n_clusters());
+    let mut of_simulated = vec![None; regions.simulated.n_clusters()];
+    for (a, b) in matches {
+        of_simulated[other[b]] = Some(of_predicted[one[a]]);
+    }
+    let unmatched = by_falling_size(simulated, regions.simulated.n_clusters());
+    let next = |cluster: usize| of_predicted.len() + unmatched[cluster];
+    let of_simulated: Vec<usize> = of_simulated
+        .into_iter()
+        .enumerate()
+        .map(|(cluster, colour)| colour.unwrap_or_else(|| next(cluster)))
+        .collect();
+    let coloured = |nodes: &[Option<usize>], colours: &[usize]| {
+        nodes.iter().map(|cluster| cluster.map(|cluster| colours[cluster])).collect()
+    };
+    [coloured(predicted, &of_predicted), coloured(simulated, &of_simulated)]
+}
+
+/// Every mark once, in the order in which marks appear.
+fn in_order_of_appearance(marks: &[usize]) -> Vec<usize> {
+    let mut seen = Vec::new();
+    for &mark in marks {
+        if !seen.contains(&mark) {
+            seen.push(mark);
+        }
+    }
+    seen
+}
+
+/// The place of each cluster among all of them by falling size.
+fn by_falling_size(cluster_of: &[Option<usize>], n_clusters: usize) -> Vec<usize> {
+    let mut sizes = vec![0; n_clusters];
+    cluster_of.iter().flatten().for_each(|&cluster| sizes[cluster] += 1);
+    let mut order: Vec<usize> = (0..n_clusters).collect();
+    order.sort_by_key(|&cluster| std::cmp::Reverse(sizes[cluster]));
+    let mut place = vec![0; n_clusters];
+    for (rank, cluster) in order.into_iter().enumerate() {
+        place[cluster] = rank;
+    }
+    place
 }
 
 /// The positions of a sweep, the largest ε first, as the paper orders its panels.

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::cascade::CascadeError;
+
 /// Why a figure could not be drawn. `panel` is the letter of the panel, as in "(a1)".
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -170,6 +172,9 @@ pub enum FigureError {
         /// Number of nodes.
         n_nodes: usize,
     },
+    /// States and clusters of a cascade that cannot be.
+    #[error(transparent)]
+    Cascade(#[from] CascadeError),
     /// The SVG text cannot be read back.
     #[error("the SVG cannot be read")]
     Svg(#[from] resvg::usvg::Error),

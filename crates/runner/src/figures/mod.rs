@@ -2,13 +2,14 @@
 //!
 //! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
 //! (with `series`, `axis`, `markers` and `legend`; `msf` and `components` fill it), `network` (with
-//! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`; a new kind is
+//! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`, `cascade`; a new kind is
 //! one more file and one more [`Content`]. They draw through `canvas`, which writes SVG in points,
 //! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG.
 //! `layouts` sets panels side by side as the paper's figures do.
 
 mod axis;
 mod canvas;
+mod cascade;
 mod colour_map;
 mod components;
 mod error;
@@ -31,6 +32,7 @@ mod stress;
 mod style;
 
 pub use axis::Scale;
+pub use cascade::{CascadeCluster, CascadePanel, CascadeState};
 pub use components::{Mode, components_panel};
 pub use error::FigureError;
 pub use groups::Group;
@@ -102,6 +104,8 @@ pub enum Content {
     HeatMap(HeatMapPanel),
     /// Nodes in space, from three sides.
     Positions(PositionsPanel),
+    /// Clusters of every state as ε falls.
+    Cascade(CascadePanel),
 }
 
 impl Figure {
@@ -125,6 +129,7 @@ impl Figure {
                 Content::Network(network) => network.draw(&mut canvas, cell, letter)?,
                 Content::HeatMap(matrix) => matrix.draw(&mut canvas, cell, letter)?,
                 Content::Positions(nodes) => nodes.draw(&mut canvas, cell, letter)?,
+                Content::Cascade(cascade) => cascade.draw(&mut canvas, cell, letter)?,
             }
             let at = [cell.left, cell.top + CAP_HEIGHT * LETTER_SIZE + 1.0];
             canvas.label(&Label::text(letter.as_str()), at, LETTER_SIZE, Anchor::Start);

@@ -73,7 +73,13 @@ impl Claim<'_> {
             | Q::Pearson
             | Q::Spearman
             | Q::RandIndex
-            | Q::RegionVerdicts => [Needed, Meaningless, Meaningless],
+            | Q::RegionVerdicts
+            | Q::PredictedRegions
+            | Q::SimulatedRegions
+            | Q::PredictedGrey
+            | Q::SimulatedGrey
+            | Q::PredictedSize
+            | Q::SimulatedSize => [Needed, Meaningless, Meaningless],
             Q::CascadeOrder | Q::SimulatedOrder | Q::SimulatedOnset => {
                 [Meaningless, Meaningless, Needed]
             }
@@ -83,6 +89,11 @@ impl Claim<'_> {
         self.used("epsilon", epsilon, at.epsilon.is_some())?;
         self.used("modes", modes, at.modes.is_some())?;
         self.used("clusters", clusters, at.clusters.is_some())?;
+        let prefix = if self.spec.of == Q::Nodes { Allowed } else { Meaningless };
+        self.used("group_prefix", prefix, at.group_prefix.is_some())?;
+        if self.is_of_regions() && self.checker.experiment.regions.is_none() {
+            return self.refuse("", "is about regions, but there is no [regions]");
+        }
         match &self.plan.sweep {
             None if self.is_simulated() => {
                 self.refuse("", "is about simulations, but there is no [sweep]")
@@ -108,9 +119,24 @@ impl Claim<'_> {
         }
     }
 
-    fn is_simulated(&self) -> bool {
+    /// Whether it speaks of the two-threshold analysis, which is made at the ε of the sweep.
+    fn is_of_regions(&self) -> bool {
         use Quantity as Q;
         matches!(
+            self.spec.of,
+            Q::RegionVerdicts
+                | Q::PredictedRegions
+                | Q::SimulatedRegions
+                | Q::PredictedGrey
+                | Q::SimulatedGrey
+                | Q::PredictedSize
+                | Q::SimulatedSize
+        )
+    }
+
+    fn is_simulated(&self) -> bool {
+        use Quantity as Q;
+        let of_both = matches!(
             self.spec.of,
             Q::SimulatedClusters
                 | Q::SimulatedOnset
@@ -119,12 +145,21 @@ impl Claim<'_> {
                 | Q::Pearson
                 | Q::Spearman
                 | Q::RandIndex
-                | Q::RegionVerdicts
-        )
+        );
+        of_both || self.is_of_regions()
     }
 
     fn epsilon(&self) -> Result<()> {
-        let Some(epsilon) = self.spec.at.epsilon else { return Ok(()) };
+        let Some(epsilon) = &self.spec.at.epsilon else { return Ok(()) };
+        match (epsilon.list().len(), self.shape()) {
+            (0, _) => return self.refuse(".where.epsilon", "is empty"),
+            (1, _) | (_, Shape::Numbers(_)) => {}
+            _ => return self.refuse(".where.epsilon", "has several values, but must be one here"),
+        }
+        epsilon.list().iter().try_for_each(|&epsilon| self.one_epsilon(epsilon))
+    }
+
+    fn one_epsilon(&self, epsilon: f64) -> Result<()> {
         self.checker.positive(&self.key(".where.epsilon"), epsilon)?;
         let Some(sweep) = self.plan.sweep.as_ref().filter(|_| self.is_simulated()) else {
             return Ok(());
@@ -169,19 +204,33 @@ impl Claim<'_> {
         match self.spec.of {
             Q::Eigenvalues | Q::CriticalCouplings => Shape::Numbers(modes),
             Q::Eigenvectors => Shape::Vectors,
-            Q::CascadeClusters | Q::SimulatedClusters => Shape::Clusters,
+            Q::CascadeClusters
+            | Q::SimulatedClusters
+            | Q::PredictedRegions
+            | Q::SimulatedRegions => Shape::Clusters,
             Q::CascadeOrder | Q::SimulatedOrder => Shape::Order,
-            _ => Shape::Numbers(Some(1)),
+            _ => Shape::Numbers(Some(self.spec.at.epsilon.as_ref().map_or(1, |e| e.list().len()))),
         }
     }
 
-    /// Exactly one of `equals`, `at_most` and `at_least`, of the quantity's shape.
+    /// Exactly one of `equals`, `at_most`, `at_least` and `trend`, of the quantity's shape.
     fn value(&self) -> Result<()> {
         let spec = self.spec;
-        let bounds = [spec.equals.is_some(), spec.at_most.is_some(), spec.at_least.is_some()];
-        if bounds.iter().filter(|given| **given).count() != 1 {
-            let message = "must have exactly one of `equals`, `at_most`, `at_least`";
+        let stated = [
+            spec.equals.is_some(),
+            spec.at_most.is_some(),
+            spec.at_least.is_some(),
+            spec.trend.is_some(),
+        ];
+        if stated.iter().filter(|given| **given).count() != 1 {
+            let message = "must have exactly one of `equals`, `at_most`, `at_least`, `trend`";
             return self.refuse("", message);
+        }
+        if spec.trend.is_some() {
+            return match self.shape() {
+                Shape::Numbers(None | Some(2..)) => Ok(()),
+                _ => self.refuse(".trend", "needs two numbers or more to compare"),
+            };
         }
         if let Some(bound) = spec.at_most.or(spec.at_least) {
             return match self.shape() {
@@ -210,7 +259,7 @@ impl Claim<'_> {
 
     fn numbers(&self, count: Option<usize>) -> Result<()> {
         let numbers: OneOrMany = self.equals("a number or a list of numbers")?;
-        let numbers = numbers.into_list();
+        let numbers = numbers.list();
         if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
             return self.refuse(".equals", format!("contains {number}, but must be finite"));
         }

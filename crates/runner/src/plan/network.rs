@@ -89,13 +89,33 @@ impl Checker<'_> {
         self.problem(key, format!("has mode {mode}, but the modes computed are 1 to {most}"))
     }
 
+    /// The regions are groups, and their thresholds make sense.
+    pub(super) fn regions(&self, network: &Network) -> Result<()> {
+        let Some(regions) = &self.experiment.regions else { return Ok(()) };
+        if network.groups().is_empty() {
+            return Err(self.problem("regions", "needs groups, and the network has none"));
+        }
+        if network.n_nodes() > ALL_PAIRS {
+            let message = format!(
+                "needs the errors of all pairs, kept for networks of up to {ALL_PAIRS} nodes"
+            );
+            return Err(self.problem("regions", message));
+        }
+        let bounds = [
+            ("distance_within", regions.distance_within),
+            ("distance_between", regions.distance_between),
+            ("error_within", regions.error_within),
+            ("error_between", regions.error_between),
+        ];
+        bounds
+            .iter()
+            .try_for_each(|(key, bound)| self.bound(&format!("regions.{key}"), *bound, true))
+    }
+
     /// Matrices and regions need what they show.
     fn figure_kind(&self, network: &Network) -> Result<()> {
         let kind = self.experiment.figure.kind;
         let (regions, n_nodes) = (self.experiment.regions.is_some(), network.n_nodes());
-        if regions && network.groups().is_empty() {
-            return Err(self.problem("regions", "needs groups, and the network has none"));
-        }
         let missing = match kind {
             FigureKind::Sweep => None,
             _ if self.experiment.sweep.is_none() => Some("a [sweep]"),

@@ -2,9 +2,9 @@
 
 use dynamics::{BLOCKS, Coupling, Schedule};
 
-use super::Checker;
+use super::{ALL_PAIRS, Checker};
 use crate::problem::{Result, plain};
-use crate::spec::{EvenGrid, Grid};
+use crate::spec::{Bound, EvenGrid, Grid};
 
 /// The most points of a grid, and the most runs of a sweep.
 const MOST_POINTS: f64 = 1e6;
@@ -67,6 +67,24 @@ impl Checker<'_> {
             return Ok(());
         }
         Err(self.problem(key, format!("is {}, but must be finite and above zero", plain(value))))
+    }
+
+    /// A bound on errors, in a sweep that observes all pairs or does not.
+    pub(super) fn bound(&self, key: &str, bound: Bound, pairs: bool) -> Result<()> {
+        match bound {
+            Bound::Fixed(error) => self.positive(key, error),
+            Bound::OfLargest(_) if !pairs => {
+                let message = format!(
+                    "needs the errors of all pairs, kept for networks of up to {ALL_PAIRS} nodes"
+                );
+                Err(self.problem(key, message).hint("give the bound as a number"))
+            }
+            Bound::OfLargest(fraction) if fraction > 0.0 && fraction < 1.0 => Ok(()),
+            Bound::OfLargest(fraction) => {
+                let message = format!("is {}, but must be between 0 and 1", plain(fraction));
+                Err(self.problem(&format!("{key}.of_largest"), message))
+            }
+        }
     }
 
     pub(super) fn not_negative(&self, key: &str, value: f64) -> Result<()> {

@@ -13,10 +13,12 @@ pub struct ClaimSpec {
     /// Which instance of it.
     #[serde(default, rename = "where")]
     pub at: Where,
-    /// The source's value; exactly one of `equals`, `at_most` and `at_least` is given.
+    /// The source's value; exactly one of `equals`, `at_most`, `at_least` and `trend` is given.
     pub equals: Option<toml::Value>,
     pub at_most: Option<f64>,
     pub at_least: Option<f64>,
+    /// How the quantity changes along the list `where.epsilon`.
+    pub trend: Option<Trend>,
     pub abs_tol: Option<f64>,
     pub rel_tol: Option<f64>,
     /// Where the source says it; the experiment's own source by default.
@@ -65,7 +67,7 @@ pub enum Quantity {
     /// Largest δx^c_m of `where.clusters` at `where.epsilon`.
     #[serde(rename = "simulated.error")]
     SimulatedError,
-    /// Number of nodes of the network.
+    /// Number of nodes of the network, or of its groups that begin with `where.group_prefix`.
     #[serde(rename = "network.nodes")]
     Nodes,
     /// Number of links of the network.
@@ -86,21 +88,50 @@ pub enum Quantity {
     /// Fraction of regions of the same verdict in prediction and simulation at `where.epsilon`.
     #[serde(rename = "agreement.regions")]
     RegionVerdicts,
+    /// Clusters of regions by the two thresholds on δe_ij, at `where.epsilon`.
+    #[serde(rename = "regions.predicted")]
+    PredictedRegions,
+    /// Clusters of regions by the two thresholds on δx_ij, at `where.epsilon`.
+    #[serde(rename = "regions.simulated")]
+    SimulatedRegions,
+    /// Number of nodes in regions that δe_ij does not let synchronise, at `where.epsilon`.
+    #[serde(rename = "regions.predicted.grey_nodes")]
+    PredictedGrey,
+    /// Number of nodes in regions that do not synchronise in simulation, at `where.epsilon`.
+    #[serde(rename = "regions.simulated.grey_nodes")]
+    SimulatedGrey,
+    /// Mean number of nodes of the predicted clusters of regions at `where.epsilon`.
+    #[serde(rename = "regions.predicted.cluster_size")]
+    PredictedSize,
+    /// Mean number of nodes of the simulated clusters of regions at `where.epsilon`.
+    #[serde(rename = "regions.simulated.cluster_size")]
+    SimulatedSize,
+}
+
+/// Each value against the one before it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Trend {
+    Rises,
+    Falls,
 }
 
 /// Which instance of a quantity a claim is about.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Where {
-    pub epsilon: Option<f64>,
+    /// A coupling strength or, for a quantity that is a number, a list of them.
+    pub epsilon: Option<OneOrMany>,
     /// Modes k, counted from 1 as in λ_k.
     pub modes: Option<Vec<usize>>,
     /// Clusters of node labels.
     pub clusters: Option<Vec<Vec<Name>>>,
+    /// What the names of groups begin with whose nodes are counted.
+    pub group_prefix: Option<String>,
 }
 
-/// `equals` of a claim about numbers: one, or a list.
-#[derive(Deserialize)]
+/// One number, or a list.
+#[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 pub enum OneOrMany {
     One(f64),
@@ -109,9 +140,9 @@ pub enum OneOrMany {
 
 impl OneOrMany {
     /// The numbers as a list.
-    pub fn into_list(self) -> Vec<f64> {
+    pub fn list(&self) -> &[f64] {
         match self {
-            Self::One(number) => vec![number],
+            Self::One(number) => std::slice::from_ref(number),
             Self::Many(numbers) => numbers,
         }
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use indexmap::IndexMap;
 use serde::Deserialize;
 
-use super::Name;
+use super::{Bound, Name};
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize)]
@@ -57,8 +57,9 @@ pub struct AttributesSpec {
     pub position: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
+#[value(rename_all = "snake_case")]
 pub enum Format {
     /// A link a line: two labels and, if it is not 1, a weight.
     #[default]
@@ -165,10 +166,10 @@ pub enum GroupsSpec {
 #[serde(deny_unknown_fields)]
 pub struct RegionsSpec {
     /// A region is predicted to synchronise where its mean δe is below this.
-    pub distance_within: f64,
+    pub distance_within: Bound,
     /// Two such regions are predicted to be one cluster where the mean δe between them is below this.
-    pub distance_between: f64,
+    pub distance_between: Bound,
     /// The same for δx in the simulation, in the units of the component.
-    pub error_within: f64,
-    pub error_between: f64,
+    pub error_within: Bound,
+    pub error_between: Bound,
 }

@@ -2,6 +2,7 @@
 //! comparison with golden outputs, and networks that make trouble.
 
 mod comparison;
+mod predict;
 mod results;
 #[path = "../support/mod.rs"]
 mod support;

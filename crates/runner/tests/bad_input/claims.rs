@@ -10,7 +10,7 @@ fn claim(of: &str, keys: &str) -> Toml {
 
 #[test]
 fn a_claim_states_one_value() {
-    let one_of = "`claims.more` must have exactly one of `equals`, `at_most`, `at_least`";
+    let one_of = "`claims.more` must have exactly one of `equals`, `at_most`, `at_least`, `trend`";
     check_refused(&claim("msf.sigma_c", ""), &[one_of]);
     check_refused(&claim("msf.sigma_c", "equals = 8.3\nat_most = 9"), &[one_of]);
 }
@@ -87,5 +87,33 @@ fn a_tolerance_is_not_negative_and_has_an_effect() {
     check_refused(
         &claim("cascade.clusters", "where.epsilon = 2.0\nequals = []\nrel_tol = 0.1"),
         &["`claims.more.rel_tol` has no effect on this claim"],
+    );
+}
+
+#[test]
+fn a_trend_compares_two_numbers_or_more() {
+    let alone = "where.epsilon = 2.0\ntrend = \"rises\"";
+    let refused = "`claims.more.trend` needs two numbers or more";
+    check_refused(&claim("agreement.pearson", alone), &[refused]);
+    check_refused(&claim("cascade.clusters", alone), &[refused]);
+    check_refused(
+        &claim("cascade.clusters", "where.epsilon = [2.0, 3.0]\nequals = []"),
+        &["`claims.more.where.epsilon` has several values, but must be one here"],
+    );
+    check_refused(
+        &claim("agreement.pearson", "where.epsilon = []\nat_least = 0"),
+        &["`claims.more.where.epsilon` is empty"],
+    );
+}
+
+#[test]
+fn a_claim_about_regions_needs_their_thresholds() {
+    check_refused(
+        &claim("regions.predicted", "where.epsilon = 2.0\nequals = []"),
+        &["`claims.more` is about regions, but there is no [regions]"],
+    );
+    check_refused(
+        &claim("msf.sigma_c", "where.group_prefix = \"r\"\nequals = 8.3"),
+        &["`claims.more.where.group_prefix` means nothing for this quantity"],
     );
 }

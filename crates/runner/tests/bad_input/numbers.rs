@@ -172,3 +172,22 @@ fn perturbations_that_outgrow_all_numbers_are_refused() {
         &["`msf.sigma` reaches", "beyond all numbers", "shorten `msf.renormalise`"],
     );
 }
+
+#[test]
+fn a_relative_bound_is_a_fraction() {
+    let set = |value: &str| tiny().set("sweep.synchronised_below", value);
+    check_refused(
+        &set("{ of_largest = 1.5 }"),
+        &["`sweep.synchronised_below.of_largest` is 1.5, but must be between 0 and 1"],
+    );
+    check_refused(&set("{ of_larges = 0.1 }"), &["of_larges", "`of_largest`"]);
+    check_refused(&set("\"small\""), &["must be a number or { of_largest = … }"]);
+    let regions = "[regions]\ndistance_within = -1\ndistance_between = 1\n\
+                   error_within = 1\nerror_between = 1";
+    check_refused(&tiny().and(regions), &["`regions` needs groups"]);
+    let groups = "[groups.ranges]\nA = [1, 3]\n";
+    check_refused(
+        &tiny().and(&format!("{groups}{regions}")),
+        &["`regions.distance_within` is -1, but must be finite and above zero"],
+    );
+}

@@ -1,0 +1,152 @@
+//! Speed of simulations and of the master stability function on one thread.
+//!
+//! Named operation/fixture/size; elements are node-steps (of tangents: tangent-steps, of `peak`:
+//! floating-point operations). A node-step of `communities90` has 4 · (30 + 27) additions and
+//! products at 30 links a node, one of `cortex989` 4 · (2 · 36 + 27): its links have weights.
+//!
+//! `peak` is what a processor does of packed multiplications and additions, one rounding each, when
+//! nothing has to be waited for or fetched: the measure of all the rest.
+
+#[path = "../../../benches/fixtures/src/networks.rs"]
+mod networks;
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use dynamics::lyapunov::{Tangent, Times, master_exponents};
+use dynamics::{
+    Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, ROUNDING_KICK,
+    Replica, Schedule, Simulation, SparseMatrix, Work,
+};
+
+const X_INTO_X: Coupling = Coupling { from: 0, to: 0 };
+
+fn model() -> Model {
+    Model::HindmarshRose(HindmarshRose::default())
+}
+
+/// A simulation of so many samples, ten steps each.
+fn simulation(matrix: &SparseMatrix, samples: u32, observables: Observables) -> Simulation<'_> {
+    let (step, stride) = (0.01, 10);
+    let average = f64::from(samples * stride) * step;
+    Simulation {
+        model: model(),
+        coupling: X_INTO_X,
+        matrix,
+        method: Method::Rk4,
+        schedule: Schedule { step, transient: 0.0, average, stride },
+        observables,
+        kick: ROUNDING_KICK,
+        instruction_set: InstructionSet::best(),
+    }
+}
+
+fn replicas(lanes: u32) -> Vec<Replica> {
+    let replica = |k: u32| Replica { epsilon: 0.3 + 0.05 * f64::from(k), seed: 1 + u64::from(k) };
+    (0..lanes).map(replica).collect()
+}
+
+fn time_run(criterion: &mut Criterion, name: &str, simulation: &Simulation<'_>, lanes: u32) {
+    let replicas = replicas(lanes);
+    let node_steps = replicas.len() * simulation.matrix.rows();
+    let mut group = criterion.benchmark_group(name);
+    group.throughput(Throughput::Elements(node_steps as u64 * simulation.schedule.steps()));
+    group.bench_function(lanes.to_string(), |bencher| {
+        bencher.iter(|| simulation.run(&replicas, &|_| ()).expect("the schedule is sound"));
+    });
+}
+
+fn simulate(criterion: &mut Criterion) {
+    let communities = networks::coupling_matrix(&networks::communities90());
+    let cortex = networks::coupling_matrix(&networks::cortex989());
+    for lanes in [1, 2, 4, 8, 16] {
+        let none = Observables::default;
+        let simulation_90 = simulation(communities.matrix(), 200, none());
+        time_run(criterion, "simulate/communities90", &simulation_90, lanes);
+        let simulation_989 = simulation(cortex.matrix(), 40, none());
+        time_run(criterion, "simulate/cortex989", &simulation_989, lanes);
+    }
+}
+
+/// The same with all pairs observed at every sample.
+fn observe(criterion: &mut Criterion) {
+    let cortex = networks::coupling_matrix(&networks::cortex989());
+    let pairs = Observables { pairs: true, ..Observables::default() };
+    time_run(criterion, "observe/cortex989", &simulation(cortex.matrix(), 640, pairs), 16);
+}
+
+/// Λ at 121 values of σ about one orbit.
+fn msf(criterion: &mut Criterion) {
+    let times = Times { step: 0.01, transient: 100.0, average: 1000.0, renormalise: 0.5 };
+    let tangents: Vec<_> =
+        (0..121).map(|k| Tangent { sigma: 0.0125 * f64::from(k), seed: 1 }).collect();
+    let mut group = criterion.benchmark_group("msf/hindmarsh_rose");
+    group.throughput(Throughput::Elements(tangents.len() as u64 * times.steps()));
+    group.bench_function("121", |bencher| {
+        bencher.iter(|| master_exponents(model(), X_INTO_X, &times, &tangents, &|_| ()));
+    });
+}
+
+/// Multiplications and additions on `V` independent runs of `L` numbers each.
+struct Peak<const V: usize, const L: usize> {
+    rounds: u64,
+    factor: f64,
+    term: f64,
+}
+
+impl<const V: usize, const L: usize> Work for Peak<V, L> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let (mut products, mut sums) = ([Lanes([1.0; L]); V], [Lanes([0.0; L]); V]);
+        for _ in 0..self.rounds {
+            for v in 0..V {
+                products[v] = products[v] * self.factor;
+                sums[v] = sums[v] + self.term;
+            }
+        }
+        products.iter().chain(&sums).flat_map(|lanes| lanes.0).sum()
+    }
+}
+
+fn peak(criterion: &mut Criterion) {
+    const VECTORS: u64 = 6;
+    const ROUNDS: u64 = 1 << 20;
+    let mut group = criterion.benchmark_group("peak");
+    for set in InstructionSet::available() {
+        let (factor, term) = black_box((1.0 + 1e-9, 0.5));
+        macro_rules! time {
+            ($width:literal) => {{
+                group.throughput(Throughput::Elements(2 * VECTORS * $width * ROUNDS));
+                group.bench_function(set.name(), |bencher| {
+                    let peak =
+                        || Peak::<{ VECTORS as usize }, $width> { rounds: ROUNDS, factor, term };
+                    bencher.iter(|| set.run(peak()));
+                });
+            }};
+        }
+        match set {
+            InstructionSet::Baseline => time!(2),
+            InstructionSet::Avx2 => time!(4),
+            InstructionSet::Avx512 => time!(8),
+        }
+    }
+}
+
+/// One thread, so that a machine's speed is that of one of its cores.
+fn on_one_thread() -> Criterion {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool was made before");
+    Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(3))
+}
+
+criterion_group! {
+    name = benches;
+    config = on_one_thread();
+    targets = peak, simulate, msf, observe
+}
+criterion_main!(benches);

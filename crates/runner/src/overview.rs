@@ -1,0 +1,165 @@
+//! A prediction in words: the network, its leading modes, the stable set, the cascade of states.
+
+use std::fmt::Write;
+use std::time::Duration;
+
+use clustering::State;
+use comfy_table::Table;
+use comfy_table::presets::NOTHING;
+
+use crate::findings::Findings;
+use crate::plan::Plan;
+use crate::table::{four_digits, two_digits};
+
+/// Modes and states shown; the results folder has them all.
+const SHOWN: usize = 12;
+/// Sizes shown of the clusters of one state.
+const SIZES: usize = 5;
+
+/// The prediction of a plan whose network took so long to read.
+pub fn of(plan: &Plan, findings: &Findings, read: Duration) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        writeln!(text, "{name:<12} {value}").expect("a string takes every line");
+    };
+    line("network", network(plan, read));
+    line("modes", modes(findings));
+    line("lambda", lambda(findings));
+    line("stable for", stable(findings));
+    line("", String::new());
+    text.push_str(&cascade(plan, findings));
+    text
+}
+
+fn network(plan: &Plan, read: Duration) -> String {
+    let network = &plan.network;
+    let parts = match network.components().len() {
+        1 => "connected".into(),
+        parts => format!("{} components", grouped(parts)),
+    };
+    format!(
+        "{} nodes, {} links, {parts}; read in {:.1} s",
+        grouped(network.n_nodes()),
+        grouped(network.n_links()),
+        read.as_secs_f64()
+    )
+}
+
+fn modes(findings: &Findings) -> String {
+    let spectrum = &findings.spectrum;
+    let residual = spectrum.residuals.iter().copied().fold(0.0, f64::max);
+    let multiple = spectrum.eigenspaces.iter().filter(|modes| modes.len() > 1).count();
+    let mut text = format!(
+        "{} computed, residuals up to {}",
+        spectrum.eigenvalues.len(),
+        two_digits(residual)
+    );
+    if multiple > 0 {
+        write!(text, ", {multiple} multiple eigenvalues").expect("a string takes every text");
+    }
+    text
+}
+
+fn lambda(findings: &Findings) -> String {
+    let values = findings.spectrum.eigenvalues.iter().skip(1);
+    abridged(values.map(|&value| four_digits(value)))
+}
+
+fn stable(findings: &Findings) -> String {
+    let intervals = findings.msf.stable_region().intervals;
+    if intervals.is_empty() {
+        return "no sigma that was looked at: nothing is predicted to synchronise".into();
+    }
+    if let Some(zero) = findings.msf.sigma_c() {
+        let error = two_digits(zero.standard_error);
+        return format!("sigma > {} ± {error}", four_digits(zero.sigma));
+    }
+    let interval = |interval: &msf::Interval| match interval.to {
+        Some(to) => format!("{} < sigma < {}", four_digits(interval.from), four_digits(to)),
+        None => format!("sigma > {}", four_digits(interval.from)),
+    };
+    intervals.iter().map(interval).collect::<Vec<_>>().join(", ")
+}
+
+fn cascade(plan: &Plan, findings: &Findings) -> String {
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table.set_header(["epsilon", "unstable modes", "clusters", "their sizes", "nodes alone"]);
+    for state in findings.cascade.iter().take(SHOWN) {
+        table.add_row(row(state));
+    }
+    let mut text = format!("{table}\n");
+    if findings.cascade.len() > SHOWN {
+        let more = findings.cascade.len() - SHOWN;
+        writeln!(text, "… and {more} more states").expect("a string takes every line");
+    }
+    if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
+        let computed = findings.spectrum.eigenvalues.len();
+        writeln!(
+            text,
+            "The states end at epsilon = {}, where mode {computed} becomes unstable, the last one \
+             computed of {}.",
+            four_digits(last.epsilon.0),
+            grouped(plan.network.n_nodes())
+        )
+        .expect("a string takes every line");
+    }
+    text
+}
+
+fn row(state: &State) -> [String; 5] {
+    let (from, to) = state.epsilon;
+    let epsilon = match to {
+        Some(to) => format!("{} to {}", four_digits(to), four_digits(from)),
+        None => format!("above {}", four_digits(from)),
+    };
+    let mut sizes = vec![0usize; state.clusters.n_clusters()];
+    state.clusters.cluster_of().iter().for_each(|&cluster| sizes[cluster] += 1);
+    let alone = sizes.iter().filter(|&&size| size == 1).count();
+    sizes.retain(|&size| size > 1);
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    let mut largest: Vec<String> = sizes.iter().take(SIZES).map(|&size| grouped(size)).collect();
+    if sizes.len() > SIZES {
+        largest.push("…".into());
+    }
+    [
+        epsilon,
+        grouped(state.unstable_modes.len()),
+        grouped(sizes.len()),
+        largest.join(" + "),
+        grouped(alone),
+    ]
+}
+
+fn abridged(values: impl Iterator<Item = String>) -> String {
+    let mut shown: Vec<String> = values.take(SHOWN + 1).collect();
+    if shown.len() > SHOWN {
+        shown[SHOWN] = "…".into();
+    }
+    shown.join(", ")
+}
+
+/// A count with commas between groups of three digits.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    groups.collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_grouped_by_thousands() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+    }
+
+    #[test]
+    fn long_lists_are_abridged() {
+        let values = |count: usize| abridged((0..count).map(|k| k.to_string()));
+        assert_eq!(values(2), "0, 1");
+        assert!(values(12).ends_with("10, 11"));
+        assert!(values(13).ends_with("11, …"));
+    }
+}

@@ -1,0 +1,228 @@
+//! `eigensync predict NETWORK`: a prediction without an experiment file. The options become the
+//! experiment file that says the same, which is run like any other and kept beside the results.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use dynamics::Model;
+use dynamics::lyapunov::Times;
+use toml::{Table, Value, toml};
+
+use crate::output::say;
+use crate::problem::{Problem, Result, nearest};
+use crate::progress::Stages;
+use crate::spec::{Format, MatrixKind};
+use crate::{check, findings, overview, plan, record, results};
+
+/// Points of the curve Λ(σ).
+const SIGMA_POINTS: i64 = 65;
+/// Times of the first look at Λ, which finds how far the curve must reach.
+const FIRST_LOOK: Times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+
+/// Options of `eigensync predict`.
+#[derive(clap::Args)]
+pub struct Args {
+    /// File of the network: an edge list, or another format told by its ending (.mtx, .graphml, .csv,
+    /// .npy, .npz, .mat, .zip of The Virtual Brain)
+    network: PathBuf,
+    /// Oscillator at every node, with parameters that are not the default ones: `lorenz`,
+    /// `hindmarsh_rose:current=3.1`
+    #[arg(long, value_name = "NAME[:P=X,…]")]
+    oscillator: String,
+    /// Component of the driving node, and the component whose equation it enters: `x:y`
+    #[arg(long, value_name = "FROM:TO")]
+    coupling: String,
+    /// Coupling matrix
+    #[arg(long, value_enum, default_value_t = MatrixKind::Normalized)]
+    matrix: MatrixKind,
+    /// Leading modes to compute; the cascade reaches down to where the last of them becomes unstable
+    #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    modes: u32,
+    /// Nodes are one cluster in steps of the eigenvector distance of at most this; without it, where
+    /// it is zero up to the accuracy of the solver
+    #[arg(long, value_name = "DISTANCE")]
+    threshold: Option<f64>,
+    /// Format of the file, where its ending does not tell
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Matrix to take from a file that holds several
+    #[arg(long, value_name = "NAME")]
+    variable: Option<String>,
+    /// Steps before the network is used, in this order: largest_component, drop_isolated,
+    /// drop_self_loops, binarise, symmetrise=union, symmetrise=mean, symmetrise=max
+    #[arg(long, value_name = "STEP", value_delimiter = ',')]
+    prepare: Vec<String>,
+    /// Shorter averages for the master stability function: a first look
+    #[arg(long)]
+    quick: bool,
+    /// Folder that holds the results
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+    /// Threads to use; all processors by default. Results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// Predicts, writes the results folder and says in words what was found.
+pub fn run(args: &Args) -> Result<()> {
+    let started = Instant::now();
+    let text = experiment(args)?;
+    // As if the file lay beside the network, whose name the results have.
+    let file = args.network.with_extension("toml");
+    let plan = plan::of_text(&text, &file, args.quick)?;
+    record::check_writable(&args.results)?;
+    check::warn(&plan);
+    let read = started.elapsed();
+    let stages = Stages::new(&plan.id);
+    let found = findings::find(&plan, &mut findings::Curves::default(), &stages)?;
+    let place = results::write(&plan, &found, Vec::new(), (started, &stages), &args.results)?;
+    keep_experiment(&text, &place)?;
+    say!("{}", overview::of(&plan, &found, read).trim_end());
+    say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
+    say!("the same as an experiment file: {}", place.join(EXPERIMENT).display());
+    Ok(())
+}
+
+/// The experiment file in the results folder.
+const EXPERIMENT: &str = "experiment.toml";
+
+fn keep_experiment(text: &str, place: &Path) -> Result<()> {
+    let path = place.join(EXPERIMENT);
+    std::fs::write(&path, text)
+        .map_err(|error| Problem::from_error("cannot be written", error).in_file(&path))
+}
+
+/// The experiment file that says what the options say.
+fn experiment(args: &Args) -> Result<String> {
+    let network = args.network.canonicalize().map_err(|error| {
+        Problem::from_error("the network cannot be opened", error).in_file(&args.network)
+    })?;
+    let (oscillator, model) = oscillator(&args.oscillator)?;
+    let Some((from, to)) = args.coupling.split_once(':') else {
+        let message = format!("`--coupling {}` must be two components, such as x:y", args.coupling);
+        return Err(Problem::new(message).hint(components(model)));
+    };
+    let mut document = toml! {
+        seed = 1
+    };
+    let title = format!("Prediction for {}", args.network.display());
+    document.insert("title".into(), title.into());
+    if !args.prepare.is_empty() {
+        let steps: Result<Vec<Value>> = args.prepare.iter().map(|step| preparation(step)).collect();
+        document.insert("prepare".into(), steps?.into());
+    }
+    let mut file = toml! { path = "" };
+    file["path"] = network.display().to_string().into();
+    file.insert("format".into(), name(&format(args)?).into());
+    if let Some(variable) = &args.variable {
+        file.insert("variable".into(), variable.as_str().into());
+    }
+    document.insert("network".into(), table([("file", file.into())]));
+    document.insert("oscillator".into(), oscillator);
+    let coupling =
+        [("matrix", name(&args.matrix).into()), ("from", from.into()), ("to", to.into())];
+    document.insert("coupling".into(), table(coupling));
+    document.insert("spectrum".into(), table([("modes", i64::from(args.modes).into())]));
+    if let Some(threshold) = args.threshold {
+        document.insert("prediction".into(), table([("threshold", threshold.into())]));
+    }
+    let reach = reach(model, (from, to))?;
+    let sigma =
+        table([("from", 0.0.into()), ("to", reach.into()), ("points", SIGMA_POINTS.into())]);
+    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
+    toml::to_string_pretty(&document)
+        .map_err(|error| Problem::from_error("the options cannot be written as TOML", error))
+}
+
+fn table<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    Value::Table(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+}
+
+/// The name of a choice in experiment files, which is that on the command line.
+fn name(choice: &impl ValueEnum) -> String {
+    choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+/// `NAME` or `NAME:PARAMETER=VALUE,…` as the table `[oscillator.NAME]`.
+fn oscillator(text: &str) -> Result<(Value, Model)> {
+    let (name, parameters) = text.split_once(':').unwrap_or((text, ""));
+    let known: Vec<&str> = Model::all().iter().map(Model::name).collect();
+    if !known.contains(&name) {
+        let hint = match nearest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known here: {}", known.join(", ")),
+        };
+        return Err(Problem::new(format!("there is no oscillator `{name}`")).hint(hint));
+    }
+    let mut values = Table::new();
+    for entry in parameters.split(',').filter(|entry| !entry.is_empty()) {
+        let value = entry.split_once('=').and_then(|(key, value)| {
+            Some((key.trim().to_owned(), value.trim().parse::<f64>().ok()?))
+        });
+        let Some((key, value)) = value else {
+            let message = format!("`{entry}` is no parameter, expected one such as r=35");
+            return Err(Problem::new(message));
+        };
+        values.insert(key, value.into());
+    }
+    let value = table([(name, values.into())]);
+    let model = value.clone().try_into().map_err(|error: toml::de::Error| {
+        Problem::new(format!("`--oscillator {text}`: {}", error.message().trim_end()))
+    })?;
+    Ok((value, model))
+}
+
+/// `STEP` or `STEP=HOW` as an entry of `prepare`.
+fn preparation(step: &str) -> Result<Value> {
+    Ok(match step.split_once('=') {
+        None => step.into(),
+        Some((step, how)) => table([(step, how.into())]),
+    })
+}
+
+fn components(model: Model) -> String {
+    format!("`{}` has components {}", model.name(), model.components().join(", "))
+}
+
+/// How far the curve of Λ must reach.
+fn reach(model: Model, (from, to): (&str, &str)) -> Result<f64> {
+    let component = |name: &str| {
+        model.components().iter().position(|known| *known == name).ok_or_else(|| {
+            Problem::new(format!("`--coupling` names the component \"{name}\""))
+                .hint(components(model))
+        })
+    };
+    let coupling = dynamics::Coupling { from: component(from)?, to: component(to)? };
+    let node = msf::Node { model, coupling };
+    let look = |progress: dynamics::Progress<'_>| msf::reach(&node, &FIRST_LOOK, 1, progress);
+    Stages::new("prediction")
+        .measured("first look at the msf", 16 * FIRST_LOOK.steps(), look)
+        .map_err(|error| Problem::from_error("the master stability function", error))
+}
+
+/// The format that was asked for, or that the name of the file tells.
+fn format(args: &Args) -> Result<Format> {
+    if let Some(format) = args.format {
+        return Ok(format);
+    }
+    let ending = args.network.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    Ok(match &ending[..] {
+        "mtx" => Format::MatrixMarket,
+        "graphml" | "xml" => Format::Graphml,
+        "csv" | "dat" => Format::Dense,
+        "npy" => Format::Npy,
+        "npz" => Format::Npz,
+        "mat" => Format::Matlab,
+        "zip" => Format::Tvb,
+        "edges" | "edgelist" | "el" | "txt" | "tsv" | "" => Format::EdgeList,
+        _ => {
+            let mut message = String::from("has an ending that tells no format");
+            write!(message, ", \".{ending}\"").expect("a string takes every text");
+            return Err(Problem::new(message)
+                .in_file(&args.network)
+                .hint("name it: `--format edge_list`, for example"));
+        }
+    })
+}

@@ -1,0 +1,73 @@
+//! `eigensync predict`: a network file and a few options instead of an experiment file.
+
+use crate::support::{SIX_NODES, Workplace};
+
+const LORENZ: [&str; 6] = ["--oscillator", "lorenz", "--coupling", "x:y", "--matrix", "laplacian"];
+
+/// Predicts for a file with more options.
+fn predict(place: &Workplace, network: &str, options: &[&str], status: i32) -> (String, String) {
+    let arguments = [&["predict", network], options].concat();
+    let answer = place.answer(&arguments).with_status(status);
+    (answer.stdout, answer.stderr)
+}
+
+fn with_network() -> Workplace {
+    let place = Workplace::new();
+    place.write("six.edges", SIX_NODES);
+    place
+}
+
+#[test]
+fn a_network_alone_is_predicted_in_words_and_in_a_results_folder() {
+    let place = with_network();
+    let (said, _) = predict(&place, "six.edges", &[&LORENZ[..], &["--quick"]].concat(), 0);
+    for expected in ["6 nodes, 9 links, connected", "-2, -3, -4, -5, -6", "sigma > 8.", "3 + 3"] {
+        assert!(said.contains(expected), "{expected} in:\n{said}");
+    }
+    let summary = place.json("results/six/summary.json");
+    // ε_2 = σ_c / 2, with σ_c = 8.17.
+    let first = summary["critical_couplings"][0]["epsilon"].as_f64().unwrap();
+    assert!((first - 8.17 / 2.0).abs() < 0.1, "{first}");
+    assert_eq!(summary["cascade"][1]["n_clusters"], 2);
+}
+
+#[test]
+fn a_prediction_leaves_the_experiment_file_that_says_the_same() {
+    let place = with_network();
+    predict(&place, "six.edges", &[&LORENZ[..], &["--quick"]].concat(), 0);
+    let repeated = ["run", "results/six/experiment.toml", "--quick", "--results", "again"];
+    place.answer(&repeated).with_status(0);
+    let of = |path: &str| place.json(path)["critical_couplings"].clone();
+    assert_eq!(of("results/six/summary.json"), of("again/experiment/summary.json"));
+}
+
+#[test]
+fn options_that_make_no_sense_are_answered_with_what_there_is() {
+    let place = with_network();
+    let refused = |network: &str, options: &[&str], expected: &[&str]| {
+        let (_, said) = predict(&place, network, options, 2);
+        for expected in expected {
+            assert!(said.contains(expected), "{expected} in:\n{said}");
+        }
+    };
+    refused("six.edges", &["--oscillator", "lorens", "--coupling", "x:y"], &["`lorenz`?"]);
+    refused("six.edges", &["--oscillator", "lorenz:q=1", "--coupling", "x:y"], &["`q`", "`alpha`"]);
+    refused("six.edges", &["--oscillator", "lorenz:r", "--coupling", "x:y"], &["such as r=35"]);
+    refused("six.edges", &["--oscillator", "lorenz", "--coupling", "x"], &["such as x:y"]);
+    refused("six.edges", &["--oscillator", "lorenz", "--coupling", "x:w"], &["\"w\"", "x, y, z"]);
+    refused("none.edges", &LORENZ, &["none.edges", "cannot be opened"]);
+    place.write("six.links", SIX_NODES);
+    refused("six.links", &LORENZ, &["\".links\"", "--format edge_list"]);
+    place.write("directed.csv", "0,1\n0,0\n");
+    refused("directed.csv", &LORENZ, &["directed", "prepare"]);
+}
+
+#[test]
+fn steps_of_preparation_and_a_format_can_be_named() {
+    let place = Workplace::new();
+    place.write("matrix", "0 1 0\n1 0 0\n0 0 0\n");
+    let options = [&LORENZ[..], &["--quick", "--format", "dense"]].concat();
+    let prepared = [&options[..], &["--prepare", "largest_component,symmetrise=mean"]].concat();
+    let (said, _) = predict(&place, "matrix", &prepared, 0);
+    assert!(said.contains("2 nodes, 1 links, connected"), "{said}");
+}
