@@ -21,6 +21,7 @@ use crate::basis::{Eigenpairs, orthonormalise_against, rayleigh_ritz};
 use crate::block::Basis;
 use crate::kernel::{components, kernel};
 use crate::operator::{Deflated, Operator, Shifted};
+use crate::probing::FIRST_PROBES;
 use crate::random::Random;
 use crate::request::Plan;
 use crate::verification::{Claim, Verifier};
@@ -69,6 +70,7 @@ pub(crate) fn leading(
             beyond: Vec::new(),
             products_left: plan.max_products.saturating_sub(search.products),
             products_spent: search.products,
+            probes: FIRST_PROBES,
         };
         let outcome = verifier.verify(&claim, &basis, &mut random)?;
         search.products += outcome.products;

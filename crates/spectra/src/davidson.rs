@@ -5,7 +5,7 @@
 //! converged are amplified in the wanted directions, by a Chebyshev filter (Zhou & Saad, SIAM J.
 //! Matrix Anal. Appl. 29, 954 (2007)) or by (μ − S)⁻¹ (the span is then that of a block Lanczos
 //! method on the inverse), made orthogonal to V, and added; when V is full it is cut down to its
-//! leading Ritz vectors. Blocks find up to four copies of an eigenvalue at once and further ones
+//! leading Ritz vectors, unless it is a basis of all space. Blocks find up to four copies of an eigenvalue at once and further ones
 //! through the probes at the end, which enter the same basis: no copy is handed over as missing
 //! before [`crate::verification`] has been satisfied.
 //!
@@ -20,6 +20,7 @@ use crate::completeness::Found;
 use crate::dense::symmetric_eigen;
 use crate::expansion::{Amplifier, Situation};
 use crate::kernel::{components, kernel};
+use crate::probing::FIRST_PROBES;
 use crate::product::multiply_block;
 use crate::progress::{Advance, Progress};
 use crate::random::Random;
@@ -58,6 +59,8 @@ pub(crate) struct Search<'a> {
     settled: Vec<f64>,
     random: Random,
     products: usize,
+    /// Random vectors of the next verification: more each time that one has found something.
+    probes: usize,
 }
 
 /// What a look at the leading Ritz vectors found.
@@ -83,7 +86,8 @@ impl<'a> Search<'a> {
         }
         let projected = (0..basis.len()).map(|k| vec![0.0; k + 1]).collect();
         let settled = vec![0.0; basis.len()];
-        Ok(Self { w, plan, progress, basis, projected, settled, random, products })
+        let probes = FIRST_PROBES;
+        Ok(Self { w, plan, progress, basis, projected, settled, random, products, probes })
     }
 
     /// Solves until nothing is missing.
@@ -92,14 +96,13 @@ impl<'a> Search<'a> {
         amplifier: &Amplifier<'_>,
         verifier: &Verifier<'_>,
     ) -> Result<(Found, Verification), SpectraError> {
-        let n_nodes = self.w.n_nodes();
-        let start = self.random_block();
-        let mut addition = start;
+        let mut addition = None;
         loop {
-            if let Some(block) = addition {
-                self.extend(block)?;
-            }
+            self.extend(addition.take())?;
             let mut ritz = self.ritz()?;
+            if self.basis.len() == self.w.n_nodes() {
+                return self.everything(&ritz);
+            }
             let front = self.settle(&ritz)?;
             self.plan.wanted.check(&self.settled, self.plan.grouping)?;
             self.report(&ritz);
@@ -110,22 +113,27 @@ impl<'a> Search<'a> {
                 ritz = self.rotated(&ritz);
                 match self.verify(&ritz, &front, n_modes, verifier)? {
                     Ok(verification) => return Ok((self.hand_over(&ritz, n_modes), verification)),
-                    Err(block) => {
-                        addition = block;
-                        continue;
-                    }
+                    Err(block) => addition = block,
                 }
+            } else {
+                let kept = self.kept(&ritz);
+                if self.basis.len() + WIDTH > kept + FRESH_BLOCKS * WIDTH + kept / 2 {
+                    self.rotate(&ritz, kept.min(ritz.values.len()));
+                    ritz = self.rotated(&ritz);
+                }
+                addition = self.amplified(&ritz, amplifier)?;
             }
-            if self.basis.len() == n_nodes {
-                return Err(self.unproven());
-            }
-            let kept = self.kept(&ritz);
-            if self.basis.len() + WIDTH > kept + FRESH_BLOCKS * WIDTH + kept / 2 {
-                self.rotate(&ritz, kept.min(ritz.values.len()));
-                ritz = self.rotated(&ritz);
-            }
-            addition = self.amplified(&ritz, amplifier)?;
         }
+    }
+
+    /// The modes when the basis is one of all space, and every Ritz vector an eigenvector.
+    fn everything(mut self, ritz: &Ritz) -> Result<(Found, Verification), SpectraError> {
+        self.plan.wanted.check(&ritz.values, self.plan.grouping)?;
+        let n_modes =
+            self.plan.wanted.complete(&ritz.values, f64::NEG_INFINITY, self.plan.grouping);
+        let n_modes = n_modes.expect("all modes are complete");
+        self.rotate(ritz, n_modes);
+        Ok((self.hand_over(ritz, n_modes), Verification::Dense))
     }
 
     /// The next block: the first Ritz vectors that have not converged, amplified.
@@ -137,7 +145,7 @@ impl<'a> Search<'a> {
         let first = self.settled.len();
         let width = self.width(ritz).min(ritz.values.len() - first);
         if width == 0 {
-            return Ok(self.random_block());
+            return Ok(None);
         }
         let situation = Situation {
             top: ritz.values[0],
@@ -146,9 +154,7 @@ impl<'a> Search<'a> {
         };
         let block = self.basis.combine(ritz.columns(first, width));
         self.spend(amplifier.products(&situation) * width)?;
-        let amplified = amplifier.apply(block, &situation);
-        let next = self.basis.orthonormalise(amplified)?;
-        Ok(if next.is_some() { next } else { self.random_block() })
+        Ok(Some(amplifier.apply(block, &situation)))
     }
 
     /// Vectors to work on: as many as are missing, within bounds.
@@ -157,17 +163,20 @@ impl<'a> Search<'a> {
         known.saturating_sub(self.settled.len()).clamp(NARROWEST, WIDTH)
     }
 
-    fn random_block(&mut self) -> Option<Block> {
+    /// Adds a block to the basis; a random one where there is none, or nothing new in it.
+    fn extend(&mut self, block: Option<Block>) -> Result<(), SpectraError> {
         let n_rows = self.basis.n_rows();
-        let width = WIDTH.min(n_rows - self.basis.len());
-        (width > 0).then(|| self.random.block(n_rows, width))
-    }
-
-    /// Adds a block to the basis.
-    fn extend(&mut self, block: Block) -> Result<(), SpectraError> {
-        let Some(block) = self.basis.orthonormalise(block)? else {
+        let missing = n_rows - self.basis.len();
+        if missing == 0 {
             return Ok(());
-        };
+        }
+        let new = block.map_or(Ok(None), |block| self.basis.orthonormalise(block))?;
+        let random = &mut self.random;
+        let new = new.map_or_else(
+            || self.basis.orthonormalise(random.block(n_rows, WIDTH.min(missing))),
+            |block| Ok(Some(block)),
+        )?;
+        let block = new.ok_or_else(|| self.unproven())?;
         self.spend(block.width())?;
         let image = multiply_block(self.w.symmetric(), &block);
         let before = self.basis.len();
@@ -285,12 +294,14 @@ impl<'a> Search<'a> {
             beyond: ritz.values[n_modes..].iter().copied().zip(residuals).collect(),
             products_left: self.plan.max_products.saturating_sub(self.products),
             products_spent: self.products,
+            probes: self.probes,
         };
         let outcome = verifier.verify(&claim, &self.basis, &mut self.random)?;
         self.products += outcome.products;
+        self.probes = (2 * self.probes).min(Block::WIDEST);
         Ok(match outcome.verification {
             Some(verification) => Ok(verification),
-            None => Err(outcome.block.or_else(|| self.random_block())),
+            None => Err(outcome.block),
         })
     }
 

@@ -55,7 +55,6 @@ impl<'a> Symbolic<'a> {
         let cholesky =
             factorize_symbolic_cholesky(pattern, Side::Upper, ordering, Default::default()).ok()?;
         let operations = columns(&cholesky).map(|length| 0.5 * (length * length) as f64).sum();
-        eprintln!("DBG nonzeros {} operations {operations:e} levels {}", cholesky.len_val(), shape.levels);
         let affordable = cholesky.len_val() <= MOST_NONZEROS && operations <= MOST_OPERATIONS;
         affordable.then_some(Self { matrix, starts, cholesky, operations, levels: shape.levels })
     }

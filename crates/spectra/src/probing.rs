@@ -26,8 +26,8 @@ use crate::dense::symmetric_eigen;
 use crate::product::multiply_block;
 use crate::random::Random;
 
-/// Probes sent at once.
-pub(crate) const PROBES: usize = 2;
+/// Probes sent at first.
+pub(crate) const FIRST_PROBES: usize = 2;
 /// The probability of a miss that probing aims at.
 const MISS: f64 = 1e-6;
 /// Filters that probes pass at most.
@@ -49,6 +49,8 @@ pub(crate) struct Probe {
     pub top: f64,
     /// Most products to spend.
     pub max_products: usize,
+    /// Number of random vectors, if the complement has so many dimensions.
+    pub probes: usize,
 }
 
 /// What the probes brought.
@@ -92,7 +94,7 @@ impl Probe {
     ) -> Result<Probed, SpectraError> {
         let (basis, n_modes) = modes;
         let n_rows = basis.n_rows();
-        let probes = PROBES.min(n_rows - n_modes);
+        let probes = self.probes.min(n_rows - n_modes);
         let enough = MISS.ln() / probes as f64;
         let clean = |block: &mut Block| basis.project_out_first(n_modes, block);
         let mut passed = Vec::new();

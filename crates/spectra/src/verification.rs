@@ -15,6 +15,9 @@ use crate::{SpectraError, Verification};
 /// Products that verifying may take whatever the solve took.
 const FREE_PRODUCTS: usize = 2000;
 
+/// With less than this, and no products left, completeness is unproven.
+const LEAST_CONFIDENCE: f64 = 0.99;
+
 /// What is to be verified.
 pub(crate) struct Claim {
     /// Number of modes, the first vectors of the basis.
@@ -34,6 +37,8 @@ pub(crate) struct Claim {
     pub products_left: usize,
     /// Products that the modes took.
     pub products_spent: usize,
+    /// Random vectors to probe with.
+    pub probes: usize,
 }
 
 /// What a verification came to.
@@ -85,7 +90,6 @@ impl Verifier<'_> {
         [0.5, 0.37, 0.71].into_iter().find_map(|share| {
             let c = limit - share * (limit - next);
             let count = inertia::count_above(symbolic, c)?;
-            eprintln!("DBG c {c} limit {limit} next {next} {count:?} {}", claim.n_modes);
             if count.above >= claim.n_modes && count.uncertainty < limit - c {
                 let verification = (count.above == claim.n_modes)
                     .then_some(Verification::Inertia { count: count.above });
@@ -110,10 +114,16 @@ impl Verifier<'_> {
             limit: limit - guards.perturbation,
             top: claim.top,
             max_products: affordable,
+            probes: claim.probes,
         };
         let deflated = (basis, claim.n_modes + guards.count);
         let Probed { block, theta, confidence, products, probes } =
             probe.send(self.w, self.filter, deflated, random)?;
+        if confidence < LEAST_CONFIDENCE && products + probes > claim.products_left {
+            let requested = claim.wanted.at_least();
+            let products = claim.products_spent + products;
+            return Err(SpectraError::CompletenessUnproven { requested, products });
+        }
         let found_more = theta > claim.wanted.missing_from(claim.last, self.grouping);
         let verification = (!found_more).then_some(Verification::Probed { probes, confidence });
         Ok(Outcome { verification, block, products })
