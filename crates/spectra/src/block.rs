@@ -2,8 +2,8 @@
 //!
 //! All work goes chunk by chunk in parallel, small dense products within a chunk by faer; sums over
 //! chunks run from the first to the last. So no bit depends on the number of threads. Vectors are
-//! orthogonalised as blocks, Y ← Y − V (Vᵀ Y), twice, because once leaves what rounding puts back
-//! (Björck, Numer. Math. 61, 297 (1992), "twice is enough"); within the block by the Gram matrix
+//! orthogonalised as blocks, Y ← Y − V (Vᵀ Y), again and again until little is taken away: usually
+//! twice (Giraud et al., Numer. Math. 101, 87 (2005)); within the block by the Gram matrix
 //! (Stathopoulos & Wu, SIAM J. Sci. Comput. 23, 2165 (2002), SVQB).
 
 use faer::linalg::matmul::matmul;
@@ -18,6 +18,12 @@ pub(crate) const ROWS: usize = 1024;
 
 /// A direction of a normalised block whose share of the block's Gram matrix is below this is noise.
 const DEPENDENT: f64 = 1e-12;
+/// So is what a projection leaves of a unit vector when it is shorter than this.
+const NOISE: f64 = 1e-13;
+/// A round that leaves so much of every vector has nothing left to take away.
+const CLEAN: f64 = 0.7;
+/// Rounds after which a block that is never clean counts as dependent.
+const MOST_ROUNDS: usize = 5;
 
 /// At most eight vectors of length N, stored node by node.
 #[derive(Clone)]
@@ -125,27 +131,32 @@ impl Block {
         *self = image;
     }
 
-    /// Makes the vectors orthonormal; false when they are all zero.
-    ///
-    /// Y ← Y D^{-1/2} Q Λ^{-1/2} with D = diag(Yᵀ Y) and D^{-1/2} (Yᵀ Y) D^{-1/2} = Q Λ Qᵀ, where
-    /// directions of negligible λ are left out.
-    fn orthonormalise(&mut self) -> Result<bool, SpectraError> {
-        let gram = self.gram();
-        let inverse_norm: Vec<f64> = (0..self.width)
-            .map(|v| if gram[(v, v)] > 0.0 { 1.0 / gram[(v, v)].sqrt() } else { 0.0 })
-            .collect();
-        let scaled = |v: usize, w: usize| gram[(v, w)] * inverse_norm[v] * inverse_norm[w];
-        let pairs = symmetric_eigen(self.width, scaled)?;
-        let largest = pairs.values[0];
-        let kept = pairs.values.iter().take_while(|&&l| l > DEPENDENT * largest).count();
-        if kept == 0 {
-            return Ok(false);
+    /// Divides each vector by its norm and drops those of a norm of at most `noise`; false when all are.
+    fn normalise_each(&mut self, noise: f64) -> bool {
+        let norms = self.norms();
+        let kept: Vec<usize> = (0..self.width).filter(|&v| norms[v] > noise).collect();
+        if kept.is_empty() {
+            return false;
         }
-        let coefficients = Mat::from_fn(self.width, kept, |v, k| {
-            inverse_norm[v] * pairs.vectors[k][v] / pairs.values[k].sqrt()
-        });
-        self.transform(coefficients.as_ref());
-        Ok(true)
+        let factor = |v, k: usize| if kept[k] == v { 1.0 / norms[v] } else { 0.0 };
+        self.transform(Mat::from_fn(self.width, kept.len(), factor).as_ref());
+        true
+    }
+
+    /// Makes unit vectors orthonormal, and says how independent they were; none when they were not.
+    ///
+    /// Y ← Y Q Λ^{-1/2} with Yᵀ Y = Q Λ Qᵀ, where directions of negligible λ are left out. Returns the
+    /// root of the smallest λ, those left out included.
+    fn orthonormalise(&mut self) -> Result<Option<f64>, SpectraError> {
+        let gram = self.gram();
+        let pairs = symmetric_eigen(self.width, |v, w| gram[(v, w)])?;
+        let kept = pairs.values.iter().take_while(|&&l| l > DEPENDENT * pairs.values[0]).count();
+        if kept == 0 {
+            return Ok(None);
+        }
+        let coefficient = |v, k: usize| pairs.vectors[k][v] / pairs.values[k].sqrt();
+        self.transform(Mat::from_fn(self.width, kept, coefficient).as_ref());
+        Ok(Some(pairs.values[pairs.values.len() - 1].max(0.0).sqrt()))
     }
 }
 
@@ -272,52 +283,36 @@ impl Basis {
     }
 
     /// The same, with the first vectors of the basis only.
+    ///
+    /// What little is left of a nearly dependent block carries the rounding of the whole, so rounds go
+    /// on until one finds nothing to take away.
     pub fn orthonormalise_against_first(
         &self,
         n_vectors: usize,
         mut block: Block,
     ) -> Result<Option<Block>, SpectraError> {
-        for _ in 0..2 {
-            let before = block.norms();
-            let inverse: Vec<f64> =
-                before.iter().map(|&l| if l > 0.0 { 1.0 / l } else { 0.0 }).collect();
-            let diagonal =
-                Mat::from_fn(
-                    block.width,
-                    block.width,
-                    |v, w| {
-                        if v == w { inverse[v] } else { 0.0 }
-                    },
-                );
-            block.transform(diagonal.as_ref());
+        if !block.normalise_each(0.0) {
+            return Ok(None);
+        }
+        for _ in 0..MOST_ROUNDS {
             self.project_out_first(n_vectors, &mut block);
-            if !block.keep_longer_than(1e-13)? || !block.orthonormalise()? {
+            let kept = block.norms().into_iter().fold(1.0, f64::min);
+            if !block.normalise_each(NOISE) {
                 return Ok(None);
             }
+            let Some(least) = block.orthonormalise()? else {
+                return Ok(None);
+            };
+            if kept * least > CLEAN {
+                return Ok(Some(block));
+            }
         }
-        Ok(Some(block))
+        Ok(None)
     }
 
     fn chunk_rows(&self) -> impl Iterator<Item = usize> + use<> {
         let n_rows = self.n_rows;
         (0..n_rows.div_ceil(ROWS)).map(move |chunk| ROWS.min(n_rows - chunk * ROWS))
-    }
-}
-
-impl Block {
-    /// Drops vectors of a norm below `least`; false when all are.
-    fn keep_longer_than(&mut self, least: f64) -> Result<bool, SpectraError> {
-        let kept: Vec<usize> =
-            self.norms().iter().enumerate().filter(|(_, l)| **l > least).map(|(v, _)| v).collect();
-        if kept.is_empty() {
-            return Ok(false);
-        }
-        if kept.len() < self.width {
-            let select =
-                Mat::from_fn(self.width, kept.len(), |v, k| if kept[k] == v { 1.0 } else { 0.0 });
-            self.transform(select.as_ref());
-        }
-        Ok(true)
     }
 }
 

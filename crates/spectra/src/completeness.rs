@@ -61,11 +61,12 @@ pub(crate) fn leading(
         let mut basis = Basis::empty(w.n_nodes());
         pairs.vectors.iter().for_each(|vector| basis.push(vector));
         let last = pairs.values[n_modes - 1];
+        let beyond = search.found.values.get(n_modes).copied().unwrap_or(f64::NEG_INFINITY);
         let claim = Claim {
             n_modes,
             last,
             wanted: plan.wanted,
-            next: next - shift,
+            next: next.max(beyond) - shift,
             top: pairs.values[0],
             beyond: Vec::new(),
             products_left: plan.max_products.saturating_sub(search.products),

@@ -11,7 +11,7 @@ use graph::{CouplingMatrix, Network, Normalization};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 use spectra::{
-    Modes, Request, SolverChoice, SpectraError, Spectrum, Verification, leading_modes,
+    Modes, Request, Solver, SolverChoice, SpectraError, Spectrum, Verification, leading_modes,
     leading_modes_with,
 };
 
@@ -170,7 +170,8 @@ fn the_verified_number_is_that_of_the_dense_spectrum_on_networks_of_every_family
                     assert_eq!(count, expected);
                 }
                 Verification::Probed { confidence, .. } => assert!(confidence > 0.0),
-                Verification::Dense => assert_eq!(expected, w.n_nodes()),
+                // The basis came to span all space.
+                Verification::Dense => assert!(above.solver != Solver::Dense),
             }
         }
     }

@@ -262,8 +262,8 @@ fn the_solver_is_chosen_by_size_and_count() {
         solve(&w, &Request { modes, ..Request::default() }).solver
     };
     assert_eq!(solver(300, Modes::Leading(1)), Solver::Dense);
-    assert_eq!(solver(1000, Modes::All), Solver::Dense);
-    assert_eq!(solver(1000, Modes::Above(-0.5)), Solver::Dense);
+    assert_eq!(solver(600, Modes::All), Solver::Dense);
+    assert_eq!(solver(600, Modes::Above(-0.5)), Solver::Dense);
     assert_eq!(solver(1000, Modes::Leading(1)), Solver::ShiftInvert);
     assert_eq!(solver(spectra::DENSE_NODES + 1, Modes::Above(-0.5)), Solver::ShiftInvert);
 }
