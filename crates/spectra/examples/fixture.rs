@@ -85,7 +85,41 @@ pub fn named(name: &str, n: usize) -> Network {
         "planted" => planted(n),
         "grid" => grid((n as f64).sqrt() as usize),
         "path" => path(n),
-        "cliques" => cliques(n), "cube" => { let d = n.trailing_zeros(); let mut l = vec![]; for i in 0..n { for k in 0..d { let j = i ^ (1 << k); if i < j { l.push((i, j)); } } } unit(n, l) }, "bip" => { let mut l = vec![]; for i in 0..12 { for j in 12..19 { l.push((i, j)); } } unit(19, l) }, "star" => unit(n, (1..n).map(|i| (0, i)).collect()), "torus" => { let q = (n as f64).sqrt() as usize; let mut l = vec![]; for i in 0..q { for j in 0..q { l.push((i*q+j, i*q+(j+1)%q)); l.push((i*q+j, ((i+1)%q)*q+j)); } } unit(q*q, l) }
+        "cliques" => cliques(n),
+        "cube" => {
+            let d = n.trailing_zeros();
+            let mut l = vec![];
+            for i in 0..n {
+                for k in 0..d {
+                    let j = i ^ (1 << k);
+                    if i < j {
+                        l.push((i, j));
+                    }
+                }
+            }
+            unit(n, l)
+        }
+        "bip" => {
+            let mut l = vec![];
+            for i in 0..12 {
+                for j in 12..19 {
+                    l.push((i, j));
+                }
+            }
+            unit(19, l)
+        }
+        "star" => unit(n, (1..n).map(|i| (0, i)).collect()),
+        "torus" => {
+            let q = (n as f64).sqrt() as usize;
+            let mut l = vec![];
+            for i in 0..q {
+                for j in 0..q {
+                    l.push((i * q + j, i * q + (j + 1) % q));
+                    l.push((i * q + j, ((i + 1) % q) * q + j));
+                }
+            }
+            unit(q * q, l)
+        }
         "ba" => barabasi(n, 5),
         _ => panic!("{name}"),
     }

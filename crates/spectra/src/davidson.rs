@@ -238,8 +238,7 @@ impl<'a> Search<'a> {
 
     /// How many modes to hand over, as soon as they have converged and the next one lies apart.
     fn complete(&self, ritz: &Ritz, front: &Front) -> Option<usize> {
-        let complete =
-            |values, next| self.plan.wanted.complete(values, next, self.plan.grouping);
+        let complete = |values, next| self.plan.wanted.complete(values, next, self.plan.grouping);
         // The last one settled bounds what follows more tightly than one that has not converged.
         let without_last = || {
             let (&last, before) = self.settled.split_last()?;

@@ -2,7 +2,9 @@
 //!
 //! Small separators make both a cheap factorisation and, by Cheeger's inequality, small gaps between
 //! the leading eigenvalues, on which filters are slow. So shift-invert is taken where its factor is
-//! cheap next to the products that a filter is expected to need.
+//! cheap next to the products that a filter is expected to need. Elsewhere networks of medium size go
+//! to ARPACK, where it costs a fraction of a second, and large ones to blocks and filters, which take
+//! half of its time or less.
 
 use graph::CouplingMatrix;
 
@@ -14,7 +16,7 @@ use crate::factorisation::{DENSE_SPEED, MOST_NONZEROS, MOST_OPERATIONS, Symbolic
 use crate::lanczos::Look;
 use crate::progress::Progress;
 use crate::random::Random;
-use crate::request::Plan;
+use crate::request::{ARPACK_NODES, Plan};
 use crate::verification::Verifier;
 use crate::{Solver, SolverChoice, SpectraError, Verification};
 
@@ -28,6 +30,9 @@ const EXPECTED_PRODUCTS: f64 = 500.0;
 const PRODUCTS_PER_LEVEL: f64 = 16.0;
 /// Solutions of the factorised system that shift-invert is expected to spend, besides four a mode.
 const EXPECTED_SOLUTIONS: f64 = 20.0;
+
+/// Most modes that are left to ARPACK where the choice is free: its work grows with their square.
+const MOST_ARPACK_MODES: usize = 50;
 
 /// Modes, the solver that found them, and how it is known that they are complete.
 pub(crate) fn leading(
@@ -82,7 +87,8 @@ fn choose(
     match (plan.choice, symbolic) {
         (SolverChoice::Dense, _) => unreachable!("the dense solver is not iterative"),
         (SolverChoice::Arpack, _) => Ok(Solver::Arpack),
-        (SolverChoice::Chebyshev, _) | (SolverChoice::Auto, None) => Ok(Solver::Chebyshev),
+        (SolverChoice::Chebyshev, _) => Ok(Solver::Chebyshev),
+        (SolverChoice::Auto, None) => Ok(by_products(w, plan)),
         (SolverChoice::ShiftInvert, Some(_)) => Ok(Solver::ShiftInvert),
         (SolverChoice::ShiftInvert, None) => Err(SpectraError::FactorTooLarge {
             n_nodes: w.n_nodes(),
@@ -95,7 +101,13 @@ fn choose(
                 symbolic.operations / DENSE_SPEED + 2.0 * solutions * symbolic.nonzeros() as f64;
             let expected = EXPECTED_PRODUCTS.max(PRODUCTS_PER_LEVEL * symbolic.levels as f64);
             let products = expected * w.symmetric().nnz() as f64;
-            Ok(if inverse < products { Solver::ShiftInvert } else { Solver::Chebyshev })
+            Ok(if inverse < products { Solver::ShiftInvert } else { by_products(w, plan) })
         }
     }
+}
+
+/// The solver that only multiplies: ARPACK for a few modes of a network of medium size.
+fn by_products(w: &CouplingMatrix, plan: &Plan) -> Solver {
+    let few = plan.wanted.cutoff().is_none() && plan.wanted.at_least() <= MOST_ARPACK_MODES;
+    if few && w.n_nodes() <= ARPACK_NODES { Solver::Arpack } else { Solver::Chebyshev }
 }

@@ -35,7 +35,7 @@ mod wanted;
 
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
-pub use request::{DENSE_NODES, Modes, Request, SolverChoice};
+pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 

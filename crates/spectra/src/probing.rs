@@ -32,10 +32,10 @@ pub(crate) const FIRST_PROBES: usize = 2;
 const MISS: f64 = 1e-6;
 /// Filters that probes pass at most.
 const MOST_FILTERS: usize = 5;
-/// By how much the degree of a filter exceeds what suffices if θ stays as it is.
+/// By how much the degree of a filter exceeds what suffices for the θ expected.
 const MARGIN: f64 = 1.1;
 /// A filter may amplify what is left of the modes by this much before they are projected out again.
-const STRETCH_GAIN: f64 = 1e4;
+const STRETCH_GAIN: f64 = 1e8;
 
 /// Where to look for what.
 pub(crate) struct Probe {
@@ -129,9 +129,11 @@ impl Probe {
         Interval { low: self.low.min(high - 0.05 * (self.top - self.low)), high }
     }
 
-    /// The degree that leaves a miss as improbable as aimed at, if θ stays as it is.
+    /// The degree that leaves a miss as improbable as aimed at, if θ comes to lie in the middle of
+    /// the bulk, as it does when nothing is missing.
     fn degree(&self, n_rows: usize, passed: &[Passed], unwanted: Interval, enough: f64) -> usize {
-        let missing = self.log_miss(n_rows, passed, unwanted.high) - enough;
+        let middle = 0.5 * (self.low + self.limit);
+        let missing = self.log_miss(n_rows, passed, middle.min(unwanted.high)) - enough;
         let per_degree = unwanted.growth(self.limit);
         // cosh x ≥ ½ eˣ
         let degree = ((missing + std::f64::consts::LN_2) / per_degree).max(1.0);

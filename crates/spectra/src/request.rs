@@ -8,6 +8,8 @@ use crate::{SpectraError, eigenspace};
 /// Up to this many nodes [`SolverChoice::Auto`] is dense when more than a twentieth of all modes, or
 /// all above a cutoff, are asked for: 2 s and 32 MB a matrix at this size.
 pub const DENSE_NODES: usize = 2000;
+/// Up to this many nodes it is ARPACK that finds a few modes of a network without small separators.
+pub const ARPACK_NODES: usize = 5000;
 /// Up to this many nodes it is dense for any number of modes: 30 ms.
 const FEW_NODES: usize = 500;
 
@@ -33,7 +35,8 @@ pub enum Modes {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolverChoice {
     /// Dense for few nodes (see [`DENSE_NODES`]) or when more than half of all modes are asked for;
-    /// otherwise shift-invert where a sparse factorisation is cheap, Chebyshev filters elsewhere.
+    /// otherwise shift-invert where a sparse factorisation is cheap; elsewhere ARPACK up to
+    /// [`ARPACK_NODES`], and Chebyshev filters beyond.
     Auto,
     /// The dense solver: N² memory, N³ time.
     Dense,
@@ -86,7 +89,7 @@ impl Default for Request {
 pub(crate) struct Plan {
     /// Which modes to hand over.
     pub wanted: Wanted,
-    /// Dense, or one of the others; Auto leaves the choice between the block methods.
+    /// Dense, or one of the others; Auto leaves the choice among these.
     pub choice: SolverChoice,
     /// max_i |w_ii|, or 1 for a network without links; ‖S‖ is at most twice this.
     pub scale: f64,

@@ -130,7 +130,7 @@ fn uniform(random: &mut Pcg64) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// One network of each family.
+/// One network of each family; the generators of this project first.
 fn families(random: &mut Pcg64) -> Vec<Network> {
     let n = 30 + (uniform(random) * 100.0) as usize;
     let between = 0.02 * uniform(random);
@@ -149,14 +149,14 @@ fn families(random: &mut Pcg64) -> Vec<Network> {
 fn the_verified_number_is_that_of_the_dense_spectrum_on_networks_of_every_family() {
     let mut random = Pcg64::new(5, 11);
     let mut by_inertia = 0;
-    for round in 0..20 {
+    for round in 0..100 {
         for network in families(&mut random) {
             let normalization = BOTH[round % 2];
             let w = CouplingMatrix::new(&network, normalization);
             let all = solve(&w, &dense());
             let cutoff = -uniform(&mut random) * 0.6 * scale(&w) - 1e-3;
             let expected = expected_above(&all, cutoff);
-            let solver = ITERATIVE[1 + round / 2 % 2];
+            let solver = ITERATIVE[round / 2 % 3];
             // Isolated nodes and leaves make eigenspaces larger than the usual limit.
             let request = Request { max_modes: 200, ..with(solver, Modes::Above(cutoff)) };
             let above = match leading_modes(&w, &request) {
@@ -175,7 +175,7 @@ fn the_verified_number_is_that_of_the_dense_spectrum_on_networks_of_every_family
             }
         }
     }
-    assert!(by_inertia > 50, "{by_inertia}");
+    assert!(by_inertia > 250, "{by_inertia}");
 }
 
 #[test]

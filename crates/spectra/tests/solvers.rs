@@ -8,6 +8,7 @@ use common::{
     BOTH, arpack, check_eigenvalues, complete, condition, dense, dot, network, ring, scale, solve,
     star, torus,
 };
+use graph::generators::{LinkProbability, communities};
 use graph::{CouplingMatrix, Network, Normalization};
 use proptest::prelude::*;
 use spectra::{Modes, Request, Solver, SolverChoice, SpectraError, Spectrum, leading_modes};
@@ -264,8 +265,21 @@ fn the_solver_is_chosen_by_size_and_count() {
     assert_eq!(solver(300, Modes::Leading(1)), Solver::Dense);
     assert_eq!(solver(600, Modes::All), Solver::Dense);
     assert_eq!(solver(600, Modes::Above(-0.5)), Solver::Dense);
-    assert_eq!(solver(1000, Modes::Leading(1)), Solver::ShiftInvert);
+    assert_eq!(solver(600, Modes::Leading(1)), Solver::ShiftInvert);
     assert_eq!(solver(spectra::DENSE_NODES + 1, Modes::Above(-0.5)), Solver::ShiftInvert);
+}
+
+#[test]
+fn without_small_separators_medium_networks_go_to_arpack_and_large_ones_to_filters() {
+    for (n_nodes, expected) in [(3000, Solver::Arpack), (6000, Solver::Chebyshev)] {
+        let size = n_nodes / 3;
+        let probability =
+            LinkProbability::Uniform { within: 16.0 / size as f64, between: 1.0 / size as f64 };
+        let network = communities(&[size; 3], &probability, 1).unwrap();
+        let w = CouplingMatrix::new(&network, Normalization::Normalized);
+        let request = Request { modes: Modes::Leading(3), ..Request::default() };
+        assert_eq!(solve(&w, &request).solver, expected);
+    }
 }
 
 #[test]

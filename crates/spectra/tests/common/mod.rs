@@ -75,8 +75,7 @@ pub fn grid_eigenvalues(side: usize, n_modes: usize) -> Vec<f64> {
     // −4 sin² loses no digits near 0. Modes with a + b beyond n_modes are not among the leading.
     let along = |a: usize| -4.0 * (0.5 * PI * a as f64 / side as f64).sin().powi(2);
     let top = n_modes.min(side);
-    let mut values =
-        descending((0..top).flat_map(|a| (0..top).map(move |b| along(a) + along(b))));
+    let mut values = descending((0..top).flat_map(|a| (0..top).map(move |b| along(a) + along(b))));
     values.truncate(n_modes);
     values
 }
