@@ -107,8 +107,8 @@ impl Block {
             product(y.transpose(), MatRef::from_row_major_slice(z, n_rows, z.len() / n_rows))
         };
         let chunks = self.data.par_chunks(ROWS * self.width);
-        let partials = chunks.zip(z.data.par_chunks(ROWS * z.width)).map(partial).collect();
-        sum_in_order(partials, self.width, z.width)
+        let partials: Vec<_> = chunks.zip(z.data.par_chunks(ROWS * z.width)).map(partial).collect();
+        sum_in_order(&partials, self.width, z.width)
     }
 
     /// The 2-norm of each vector.
@@ -227,8 +227,8 @@ impl Basis {
             let v = MatRef::from_column_major_slice(chunk, n_rows, n_vectors);
             product(v.transpose(), MatRef::from_row_major_slice(part, n_rows, block.width))
         };
-        let partials = self.chunks.par_iter().zip(parts).map(partial).collect();
-        sum_in_order(partials, n_vectors, block.width)
+        let partials: Vec<_> = self.chunks.par_iter().zip(parts).map(partial).collect();
+        sum_in_order(&partials, n_vectors, block.width)
     }
 
     /// V C as a block.
@@ -322,9 +322,9 @@ fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     c
 }
 
-fn sum_in_order(partials: Vec<Mat<f64>>, n_rows: usize, n_columns: usize) -> Mat<f64> {
+fn sum_in_order(partials: &[Mat<f64>], n_rows: usize, n_columns: usize) -> Mat<f64> {
     let mut sum = Mat::zeros(n_rows, n_columns);
-    for partial in &partials {
+    for partial in partials {
         sum += partial;
     }
     sum

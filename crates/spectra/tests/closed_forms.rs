@@ -5,9 +5,9 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{
-    BOTH, ITERATIVE, arpack, check_eigenvalues, complete, complete_bipartite, dense, descending,
-    grid, grid_eigenvalues, hypercube, nepal, network, path, ring, ring_of_cliques, scale,
-    six_node, solve, star, torus, torus_eigenvalues, with,
+    BOTH, ITERATIVE, check_eigenvalues, complete, complete_bipartite, dense, descending, grid,
+    grid_eigenvalues, hypercube, nepal, network, path, ring, ring_of_cliques, scale, six_node,
+    solve, star, torus, torus_eigenvalues, with,
 };
 use graph::{CouplingMatrix, Network, Normalization};
 use spectra::{Modes, Request, Solver, SolverChoice, Spectrum, Verification};
