@@ -3,7 +3,7 @@
 //! Every row is summed from its first column to its last by one thread, so no bit of a product
 //! depends on how many threads there are.
 //!
-//! A block is stored node by node ([node][vector]): one gather then brings a contiguous run, and four
+//! A block is stored node by node (`[node][vector]`): one gather then brings a contiguous run, and four
 //! vectors cost little more than one. Where all links into a node have one weight, as in any
 //! unweighted network, w_ij = g_i, and (W x)_i = g_i Σ_j x_j + (w_ii − g_i) x_i with the sum over the
 //! stored pattern, the diagonal included: the product reads 4 bytes a link instead of 12.

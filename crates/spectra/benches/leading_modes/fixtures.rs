@@ -6,8 +6,11 @@ use graph::generators::{LinkProbability, communities};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
-/// All of them, by name; each is built with about so many nodes.
-pub const ALL: [(&str, fn(usize) -> Network); 4] = [
+/// Builds a network of about so many nodes.
+pub type Builder = fn(usize) -> Network;
+
+/// All of them, by name.
+pub const ALL: [(&str, Builder); 4] = [
     ("communities", planted),
     ("ring_of_cliques", ring_of_cliques),
     ("grid", grid),

@@ -13,7 +13,8 @@ use std::{env, fs, io, io::Write};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode};
-use graph::{CouplingMatrix, Network, Normalization};
+use fixtures::Builder;
+use graph::{CouplingMatrix, Normalization};
 use spectra::{Modes, Request, SolverChoice, Spectrum, leading_modes};
 
 const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
@@ -50,11 +51,7 @@ fn main() -> io::Result<()> {
 }
 
 /// The matrix is built when its benchmark runs, and not at all when a filter leaves that out.
-fn bench(
-    group: &mut BenchmarkGroup<'_, WallTime>,
-    (name, build): (&str, fn(usize) -> Network),
-    n_nodes: usize,
-) {
+fn bench(group: &mut BenchmarkGroup<'_, WallTime>, (name, build): (&str, Builder), n_nodes: usize) {
     let mut matrix = None;
     let mut measured = None;
     group.bench_function(BenchmarkId::new(name, n_nodes), |bencher| {
@@ -71,7 +68,7 @@ fn bench(
     });
 }
 
-fn coupling_matrix(build: fn(usize) -> Network, n_nodes: usize) -> CouplingMatrix {
+fn coupling_matrix(build: Builder, n_nodes: usize) -> CouplingMatrix {
     CouplingMatrix::new(&build(n_nodes), Normalization::Normalized)
 }
 
