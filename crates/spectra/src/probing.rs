@@ -129,11 +129,12 @@ impl Probe {
         Interval { low: self.low.min(high - 0.05 * (self.top - self.low)), high }
     }
 
-    /// The degree that leaves a miss as improbable as aimed at, if θ comes to lie in the middle of
-    /// the bulk, as it does when nothing is missing.
+    /// The degree that leaves a miss as improbable as aimed at, if θ stays as it is; at first, if it
+    /// comes to lie in the middle of the bulk, as it does when nothing is missing.
     fn degree(&self, n_rows: usize, passed: &[Passed], unwanted: Interval, enough: f64) -> usize {
         let middle = 0.5 * (self.low + self.limit);
-        let missing = self.log_miss(n_rows, passed, middle.min(unwanted.high)) - enough;
+        let theta = if passed.is_empty() { middle.min(unwanted.high) } else { unwanted.high };
+        let missing = self.log_miss(n_rows, passed, theta) - enough;
         let per_degree = unwanted.growth(self.limit);
         // cosh x ≥ ½ eˣ
         let degree = ((missing + std::f64::consts::LN_2) / per_degree).max(1.0);

@@ -145,7 +145,7 @@ fn nepal_has_eight_four_times_nine_four_times_and_fourteen_twice() {
 fn a_hypercube_has_binomial_multiplicities() {
     let binomial = [1, 6, 15, 20, 15, 6, 1];
     let laplacian: Vec<f64> =
-        (0..7).flat_map(|k| vec![-2.0 * k as f64; binomial[k as usize]]).collect();
+        (0..7u8).flat_map(|k| vec![-2.0 * f64::from(k); binomial[usize::from(k)]]).collect();
     let normalized: Vec<f64> = laplacian.iter().map(|l| l / 6.0).collect();
     check_closed_form(&hypercube(6), Normalization::Laplacian, &laplacian);
     check_closed_form(&hypercube(6), Normalization::Normalized, &normalized);

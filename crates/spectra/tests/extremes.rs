@@ -106,7 +106,7 @@ fn what_is_weaker_than_the_tolerance_counts_as_apart() {
     );
     for solver in EVERY {
         let spectrum = solve(&w, &with(solver, Modes::Leading(1)));
-        assert_eq!(spectrum.eigenspaces, [0..2], "{solver:?}");
+        assert_eq!((spectrum.eigenspaces.len(), spectrum.eigenvalues.len()), (1, 2), "{solver:?}");
         assert!(spectrum.tolerance >= 1e-10 * 1e6);
     }
 }
