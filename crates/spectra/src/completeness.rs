@@ -18,10 +18,15 @@ use rand_pcg::Pcg64;
 
 use crate::arpack::{self, Outcome, Settings};
 use crate::basis::{Eigenpairs, orthonormalise_against, rayleigh_ritz};
+use crate::block::Basis;
 use crate::kernel::{components, kernel};
 use crate::operator::{Deflated, Operator, Shifted};
+use crate::probing::FIRST_PROBES;
+use crate::random::Random;
 use crate::request::Plan;
-use crate::{SpectraError, eigenspace};
+use crate::verification::{Claim, Verifier};
+use crate::wanted::Wanted;
+use crate::{SpectraError, Verification};
 
 /// Eigenvalues that a look into the complement asks for at first; doubled while all of them belong
 /// to the answer.
@@ -38,21 +43,57 @@ pub(crate) struct Found {
 }
 
 /// The leading modes of S, whole eigenspaces only, by ARPACK.
-pub(crate) fn leading(w: &CouplingMatrix, plan: &Plan) -> Result<Found, SpectraError> {
-    let shifted = Shifted { matrix: w.symmetric(), shift: 3.0 * plan.scale };
+pub(crate) fn leading(
+    w: &CouplingMatrix,
+    plan: &Plan,
+    verifier: &Verifier<'_>,
+    mut random: Random,
+) -> Result<(Found, Verification), SpectraError> {
+    let shift = 3.0 * plan.scale;
+    let shifted = Shifted { matrix: w.symmetric(), shift };
     let mut search = Search::new(w, &shifted, plan)?;
-    let n_whole = search.run()?;
-    search.found.truncate(n_whole);
-    // Without the shift, whose size would limit the accuracy of eigenvalues near 0.
-    let unshifted = Shifted { shift: 0.0, ..shifted };
-    let pairs = rayleigh_ritz(&unshifted, &search.found.vectors)?;
-    Ok(Found { pairs, products: search.products + n_whole })
+    loop {
+        let Complete { n_modes, next } = search.run()?;
+        // Without the shift, whose size would limit the accuracy of eigenvalues near 0.
+        let unshifted = Shifted { shift: 0.0, ..shifted };
+        let pairs = rayleigh_ritz(&unshifted, &search.found.vectors[..n_modes])?;
+        search.products += n_modes;
+        let mut basis = Basis::empty(w.n_nodes());
+        pairs.vectors.iter().for_each(|vector| basis.push(vector));
+        let last = pairs.values[n_modes - 1];
+        let beyond = search.found.values.get(n_modes).copied().unwrap_or(f64::NEG_INFINITY);
+        let claim = Claim {
+            n_modes,
+            last,
+            wanted: plan.wanted,
+            next: next.max(beyond) - shift,
+            top: pairs.values[0],
+            beyond: Vec::new(),
+            products_left: plan.max_products.saturating_sub(search.products),
+            products_spent: search.products,
+            probes: FIRST_PROBES,
+        };
+        let outcome = verifier.verify(&claim, &basis, &mut random)?;
+        search.products += outcome.products;
+        if let Some(verification) = outcome.verification {
+            return Ok((Found { pairs, products: search.products }, verification));
+        }
+    }
+}
+
+/// Modes among which none is missing, as far as a look into their complement tells.
+struct Complete {
+    n_modes: usize,
+    /// The largest eigenvalue of A in the complement.
+    next: f64,
 }
 
 /// The modes found so far, eigenvalues those of A.
 struct Search<'a> {
     operator: &'a dyn Operator,
     plan: &'a Plan,
+    /// What is wanted of A.
+    wanted: Wanted,
     found: Eigenpairs,
     products: usize,
     random: Pcg64,
@@ -66,45 +107,55 @@ impl<'a> Search<'a> {
         plan: &'a Plan,
     ) -> Result<Self, SpectraError> {
         let components = components(w);
-        check_extension(plan, components.count, operator.shift)?;
-        let vectors = kernel(w, &components);
-        let found = Eigenpairs { values: vec![operator.shift; vectors.len()], vectors };
-        let random = Pcg64::new(u128::from(plan.seed), START_VECTORS);
-        Ok(Self { operator, plan, found, products: 0, random })
+        let wanted = plan.wanted.shifted(operator.shift);
+        let values = vec![operator.shift; components.count];
+        let search = Self {
+            operator,
+            plan,
+            wanted,
+            found: Eigenpairs { values, vectors: kernel(w, &components) },
+            products: 0,
+            random: Pcg64::new(u128::from(plan.seed), START_VECTORS),
+        };
+        search.check()?;
+        Ok(search)
     }
 
     /// Solves until nothing is missing; returns how many of the modes found to keep.
-    fn run(&mut self) -> Result<usize, SpectraError> {
-        let mut look = self.plan.n_modes.saturating_sub(self.found.len()).max(FIRST_LOOK);
+    fn run(&mut self) -> Result<Complete, SpectraError> {
+        let mut look = self.wanted.at_least().saturating_sub(self.found.len()).max(FIRST_LOOK);
         let mut next_look = FIRST_LOOK;
         loop {
             let n_left = self.operator.n_rows() - self.found.len();
             if n_left == 0 {
-                return Ok(self.n_whole().expect("all modes are more than those asked for"));
+                let next = f64::NEG_INFINITY;
+                let n_modes = self.complete(next).expect("all modes are complete");
+                return Ok(Complete { n_modes, next });
             }
             let missing = self.largest_in_complement(look.min(n_left))?;
-            if let Some(n_whole) = self.n_whole()
-                && missing.values[0] < self.found.values[n_whole - 1] - self.plan.grouping
-            {
-                return Ok(n_whole);
+            let next = missing.values[0];
+            if let Some(n_modes) = self.complete(next) {
+                return Ok(Complete { n_modes, next });
             }
             let smallest = missing.values[missing.len() - 1];
             self.found.merge(missing);
-            let n_whole = self.n_whole();
-            if let Some(n_whole) = n_whole {
-                check_extension(self.plan, n_whole, self.found.values[self.plan.n_modes - 1])?;
-            }
-            let all_belong = n_whole.is_none_or(|n| smallest >= self.found.values[n - 1]);
+            self.check()?;
+            let all_belong = self.complete(smallest).is_none();
             look = if all_belong { next_look } else { FIRST_LOOK };
             next_look = (2 * look).min(WIDEST_LOOK);
         }
     }
 
-    /// Modes found down to the end of the eigenspace of the last one asked for, as far as known.
-    fn n_whole(&self) -> Option<usize> {
-        let (values, n_modes) = (&self.found.values, self.plan.n_modes);
-        (values.len() >= n_modes)
-            .then(|| eigenspace::end_of_eigenspace(values, n_modes, self.plan.grouping))
+    /// How many modes to keep when `next` is the largest eigenvalue of the complement.
+    fn complete(&self, next: f64) -> Option<usize> {
+        self.wanted.complete(&self.found.values, next, self.plan.grouping)
+    }
+
+    /// Refuses more modes than allowed, by eigenvalues of S.
+    fn check(&self) -> Result<(), SpectraError> {
+        let shift = 3.0 * self.plan.scale;
+        let values: Vec<f64> = self.found.values.iter().map(|theta| theta - shift).collect();
+        self.plan.wanted.check(&values, self.plan.grouping)
     }
 
     /// Eigenpairs of A on the complement of the modes found, the largest among them, at least one.
@@ -131,7 +182,9 @@ impl<'a> Search<'a> {
                 pairs.truncate(n_wanted);
                 Ok(pairs)
             }
-            Outcome::Exhausted(converged) => Err(self.exhausted(converged)),
+            Outcome::Exhausted(converged) => {
+                Err(self.plan.exhausted(self.found.len() + converged, self.products))
+            }
         }
     }
 
@@ -144,29 +197,4 @@ impl<'a> Search<'a> {
         orthonormalise_against(&self.found.vectors, &mut start);
         start
     }
-
-    /// The answer when the products are spent, with `converged_now` modes of an unfinished solve.
-    fn exhausted(&self, converged_now: usize) -> SpectraError {
-        let (requested, products) = (self.plan.n_modes, self.products);
-        let converged = self.found.len() + converged_now;
-        if converged >= requested {
-            return SpectraError::CompletenessUnproven { requested, products };
-        }
-        SpectraError::NotConverged {
-            converged,
-            requested,
-            tolerance: self.plan.tolerance,
-            products,
-        }
-    }
-}
-
-/// Refuses an eigenspace, of eigenvalue θ of A, that goes on to mode `n_whole` and so too far.
-fn check_extension(plan: &Plan, n_whole: usize, theta: f64) -> Result<(), SpectraError> {
-    let &Plan { n_modes: requested, max_extra, scale, .. } = plan;
-    if n_whole <= requested.saturating_add(max_extra) {
-        return Ok(());
-    }
-    let eigenvalue = theta - 3.0 * scale;
-    Err(SpectraError::EigenspaceTooLarge { requested, eigenvalue, found: n_whole, max_extra })
 }

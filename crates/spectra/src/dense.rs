@@ -10,7 +10,7 @@ use graph::SparseMatrix;
 
 use crate::basis::Eigenpairs;
 use crate::request::Plan;
-use crate::{SpectraError, completeness::Found, eigenspace};
+use crate::{SpectraError, completeness::Found};
 
 /// The leading modes of S, whole eigenspaces only.
 pub(crate) fn leading(matrix: &SparseMatrix, plan: &Plan) -> Result<Found, SpectraError> {
@@ -21,7 +21,11 @@ pub(crate) fn leading(matrix: &SparseMatrix, plan: &Plan) -> Result<Found, Spect
         }
     }
     let mut pairs = symmetric_eigen(matrix.rows(), |i, j| full[i * matrix.cols() + j])?;
-    pairs.truncate(eigenspace::end_of_eigenspace(&pairs.values, plan.n_modes, plan.grouping));
+    if plan.wanted.cutoff().is_some() {
+        plan.wanted.check(&pairs.values, plan.grouping)?;
+    }
+    let n_modes = plan.wanted.complete(&pairs.values, f64::NEG_INFINITY, plan.grouping);
+    pairs.truncate(n_modes.expect("all modes are complete"));
     Ok(Found { pairs, products: 0 })
 }
 

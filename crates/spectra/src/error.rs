@@ -17,6 +17,44 @@ pub enum SpectraError {
         /// Number of nodes N.
         n_nodes: usize,
     },
+    /// No eigenvalue exceeds the cutoff.
+    #[error("no eigenvalue lies above {cutoff}: the largest one of a coupling matrix is 0")]
+    NothingAbove {
+        /// The cutoff asked for.
+        cutoff: f64,
+    },
+    /// More eigenvalues exceed the cutoff than may be returned.
+    #[error(
+        "at least {found} eigenvalues lie above {cutoff}, and at most {max_modes} modes may be \
+         returned"
+    )]
+    TooManyAbove {
+        /// The cutoff asked for.
+        cutoff: f64,
+        /// Eigenvalues above it, as far as known.
+        found: usize,
+        /// The most modes allowed.
+        max_modes: usize,
+    },
+    /// No sparse factorisation of the matrix fits into the budget of shift-invert.
+    #[error(
+        "shift-invert needs a sparse factorisation, but that of this matrix of {n_nodes} nodes \
+         would have more than {most} nonzeros or cost more than {most_operations:e} operations"
+    )]
+    FactorTooLarge {
+        /// Number of nodes N.
+        n_nodes: usize,
+        /// The most nonzeros of a factor.
+        most: usize,
+        /// The most multiplications of a factorisation.
+        most_operations: f64,
+    },
+    /// A factorisation broke down.
+    #[error("the sparse factorisation of {shift} − S found a pivot that is not positive")]
+    NotPositiveDefinite {
+        /// The shift μ.
+        shift: f64,
+    },
     /// ARPACK cannot find all modes.
     #[error(
         "{requested} modes of a network of {n_nodes} nodes were asked of ARPACK, which finds at \

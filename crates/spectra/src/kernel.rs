@@ -52,7 +52,7 @@ pub(crate) fn kernel(w: &CouplingMatrix, components: &Components) -> Vec<Vec<f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::operator::multiply;
+    use crate::product::multiply;
     use graph::{Network, Normalization};
 
     #[test]

@@ -7,20 +7,36 @@
 
 mod arpack;
 mod basis;
+mod block;
+mod chebyshev;
 mod completeness;
+mod davidson;
 mod dense;
 mod eigenspace;
 mod error;
+mod expansion;
+mod factorisation;
+mod inertia;
+mod iterative;
 mod kernel;
+mod lanczos;
 mod node_space;
 mod operator;
+mod probing;
+mod product;
+mod progress;
+mod random;
 mod request;
+mod separator;
 mod spectrum;
 mod subspace;
+mod verification;
+mod wanted;
 
 pub use error::SpectraError;
-pub use request::{DENSE_NODES, Modes, Request, SolverChoice};
-pub use spectrum::{Solver, Spectrum};
+pub use progress::{Advance, Progress};
+pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
+pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 
 use graph::CouplingMatrix;
@@ -45,10 +61,24 @@ use graph::CouplingMatrix;
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
 /// allowed does not suffice.
 pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, SpectraError> {
+    leading_modes_with(w, request, &|_| ())
+}
+
+/// The same as [`leading_modes`], telling on the way how far it has come.
+///
+/// # Errors
+/// Those of [`leading_modes`].
+pub fn leading_modes_with(
+    w: &CouplingMatrix,
+    request: &Request,
+    progress: Progress<'_>,
+) -> Result<Spectrum, SpectraError> {
     let plan = request.resolve(w)?;
-    let found = match plan.solver {
-        Solver::Dense => dense::leading(w.symmetric(), &plan)?,
-        Solver::Arpack => completeness::leading(w, &plan)?,
+    let (found, solver, verification) = match plan.choice {
+        SolverChoice::Dense => {
+            (dense::leading(w.symmetric(), &plan)?, Solver::Dense, Verification::Dense)
+        }
+        _ => iterative::leading(w, &plan, progress)?,
     };
-    node_space::spectrum(w, found, &plan)
+    node_space::spectrum(w, found, &plan, (solver, verification))
 }

@@ -4,9 +4,9 @@ use graph::{CouplingMatrix, SparseMatrix};
 
 use crate::basis::{Eigenpairs, add_scaled, norm, orthonormalise_against};
 use crate::completeness::Found;
-use crate::operator::multiply;
+use crate::product::multiply;
 use crate::request::Plan;
-use crate::{SpectraError, Spectrum, eigenspace};
+use crate::{Solver, SpectraError, Spectrum, Verification, eigenspace};
 
 /// Magnitudes this close, relatively, are a tie for the largest component.
 const SIGN_TIE: f64 = 1e-6;
@@ -16,6 +16,7 @@ pub(crate) fn spectrum(
     w: &CouplingMatrix,
     found: Found,
     plan: &Plan,
+    (solver, verification): (Solver, Verification),
 ) -> Result<Spectrum, SpectraError> {
     let Found { pairs, products } = found;
     let accurate =
@@ -42,8 +43,9 @@ pub(crate) fn spectrum(
         eigenvectors: pairs.vectors,
         eigenspaces,
         tolerance: plan.grouping,
-        solver: plan.solver,
+        solver,
         products,
+        verification,
     })
 }
 

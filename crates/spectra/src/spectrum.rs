@@ -9,6 +9,34 @@ pub enum Solver {
     Dense,
     /// Leading modes by ARPACK's implicitly restarted Lanczos method.
     Arpack,
+    /// Leading modes by a block method whose search directions pass a Chebyshev filter.
+    Chebyshev,
+    /// Leading modes by the same block method with directions (μ − S)⁻¹ u from a sparse factorisation.
+    ShiftInvert,
+}
+
+/// How it was made sure that no eigenvalue above those returned is missing.
+///
+/// "Above" means above the last eigenvalue of the spectrum, copies of it included, or above the
+/// cutoff where one was asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verification {
+    /// All eigenvalues were computed.
+    Dense,
+    /// A sparse factorisation S − c·1 = L D Lᵀ just below the last eigenvalue returned, or at the
+    /// cutoff, has as many positive pivots as there are modes (Sylvester's law of inertia); its
+    /// rounding errors, bounded after the fact, move no eigenvalue across c.
+    Inertia {
+        /// Eigenvalues above c, all of them returned.
+        count: usize,
+    },
+    /// Random vectors, filtered on the complement of the modes, showed nothing above.
+    Probed {
+        /// How many vectors.
+        probes: usize,
+        /// 1 less a bound on the probability that these vectors miss an eigenvalue that is there.
+        confidence: f64,
+    },
 }
 
 /// Leading modes of a coupling matrix.
@@ -30,6 +58,9 @@ pub struct Spectrum {
     pub tolerance: f64,
     /// Which solver found them.
     pub solver: Solver,
-    /// Matrix–vector products spent on finding the modes (0 for the dense solver).
+    /// Matrix–vector products spent on finding the modes (0 for the dense solver); a solution of a
+    /// factorised system counts as one.
     pub products: usize,
+    /// How it was made sure that none is missing.
+    pub verification: Verification,
 }

@@ -1,17 +1,35 @@
-//! Spectra that are known in closed form, by both solvers.
+//! Spectra that are known in closed form, by every solver.
 
 mod common;
 
 use std::f64::consts::PI;
 
 use common::{
-    BOTH, arpack, check_eigenvalues, complete, dense, descending, nepal, network, path, ring,
-    ring_of_cliques, scale, six_node, solve, star, torus, torus_eigenvalues,
+    BOTH, ITERATIVE, check_eigenvalues, complete, complete_bipartite, dense, descending, grid,
+    grid_eigenvalues, hypercube, nepal, network, path, ring, ring_of_cliques, scale, six_node,
+    solve, star, torus, torus_eigenvalues, with,
 };
 use graph::{CouplingMatrix, Network, Normalization};
-use spectra::{Modes, Request, Solver, Spectrum};
+use spectra::{Modes, Request, Solver, SolverChoice, Spectrum, Verification};
 
-/// Compares all modes by the dense solver, and several leading counts by both, with λ_1 ≥ λ_2 ≥ ….
+const SOLVERS: [(SolverChoice, Solver); 4] = [
+    (SolverChoice::Dense, Solver::Dense),
+    (SolverChoice::Arpack, Solver::Arpack),
+    (SolverChoice::Chebyshev, Solver::Chebyshev),
+    (SolverChoice::ShiftInvert, Solver::ShiftInvert),
+];
+
+/// Asserts that the number of modes has been verified, and by the means that there are.
+fn check_verified(spectrum: &Spectrum, n_nodes: usize) {
+    match spectrum.verification {
+        // Of small networks a block method's basis is one of all space.
+        Verification::Dense => assert!(spectrum.solver == Solver::Dense || n_nodes <= 200),
+        Verification::Inertia { count } => assert_eq!(count, spectrum.eigenvalues.len()),
+        Verification::Probed { confidence, .. } => assert!(confidence > 0.999, "{confidence}"),
+    }
+}
+
+/// Compares all modes by the dense solver, and several leading counts by all, with λ_1 ≥ λ_2 ≥ ….
 fn check_closed_form(network: &Network, normalization: Normalization, expected: &[f64]) {
     let w = CouplingMatrix::new(network, normalization);
     let (n_nodes, bound) = (w.n_nodes(), 1e-13 * scale(&w));
@@ -21,13 +39,12 @@ fn check_closed_form(network: &Network, normalization: Normalization, expected: 
     for n_modes in [1, 2, n_nodes / 2, n_nodes - 1].into_iter().filter(|&m| 0 < m && m < n_nodes) {
         let modes = Modes::Leading(n_modes);
         let whole = all.eigenspaces.iter().find(|range| range.end >= n_modes).unwrap().end;
-        for (request, solver) in
-            [(Request { modes, ..dense() }, Solver::Dense), (arpack(n_modes), Solver::Arpack)]
-        {
-            let leading = solve(&w, &request);
+        for (choice, solver) in SOLVERS {
+            let leading = solve(&w, &with(choice, modes));
             assert_eq!(leading.solver, solver);
             assert_eq!(leading.eigenvalues.len(), whole, "{n_modes} modes of {n_nodes}");
             check_eigenvalues(&leading, expected, bound);
+            check_verified(&leading, n_nodes);
         }
     }
 }
@@ -107,7 +124,8 @@ fn nepal_has_eight_four_times_nine_four_times_and_fourteen_twice() {
     let w = CouplingMatrix::new(&nepal(), Normalization::Laplacian);
     // The paper prints the simple ones to two decimals.
     let simple = [(0, 0.0), (1, -0.94), (2, -3.10), (11, -9.94), (14, -14.03)];
-    for request in [dense(), arpack(14)] {
+    let leading = |solver| with(solver, Modes::Leading(14));
+    for request in ITERATIVE.map(leading).into_iter().chain([dense()]) {
         let spectrum = solve(&w, &request);
         for &(k, printed) in simple.iter().filter(|(k, _)| *k < spectrum.eigenvalues.len()) {
             assert!((spectrum.eigenvalues[k] - printed).abs() < 0.005);
@@ -118,34 +136,89 @@ fn nepal_has_eight_four_times_nine_four_times_and_fourteen_twice() {
         }
     }
     assert_eq!(multiplicities(&solve(&w, &dense())), [1, 1, 1, 4, 4, 1, 2, 1]);
-    assert_eq!(multiplicities(&solve(&w, &arpack(5))), [1, 1, 1, 4]);
+    for solver in ITERATIVE {
+        assert_eq!(multiplicities(&solve(&w, &with(solver, Modes::Leading(5)))), [1, 1, 1, 4]);
+    }
 }
 
 #[test]
-fn arpack_loses_none_of_the_leading_torus_modes() {
+fn a_hypercube_has_binomial_multiplicities() {
+    let binomial = [1, 6, 15, 20, 15, 6, 1];
+    let laplacian: Vec<f64> =
+        (0..7u8).flat_map(|k| vec![-2.0 * f64::from(k); binomial[usize::from(k)]]).collect();
+    let normalized: Vec<f64> = laplacian.iter().map(|l| l / 6.0).collect();
+    check_closed_form(&hypercube(6), Normalization::Laplacian, &laplacian);
+    check_closed_form(&hypercube(6), Normalization::Normalized, &normalized);
+}
+
+#[test]
+fn a_complete_bipartite_network_has_four_eigenvalues() {
+    let runs = |parts: &[(f64, usize)]| -> Vec<f64> {
+        parts.iter().flat_map(|&(value, count)| vec![value; count]).collect()
+    };
+    let laplacian = runs(&[(0.0, 1), (-7.0, 11), (-12.0, 6), (-19.0, 1)]);
+    check_closed_form(&complete_bipartite(12, 7), Normalization::Laplacian, &laplacian);
+    let normalized = runs(&[(0.0, 1), (-1.0, 17), (-2.0, 1)]);
+    check_closed_form(&complete_bipartite(12, 7), Normalization::Normalized, &normalized);
+}
+
+#[test]
+fn a_square_grid_has_sums_of_those_of_a_path() {
+    let all = grid_eigenvalues(12, 144);
+    assert_eq!(all.len(), 144);
+    check_closed_form(&grid(12), Normalization::Laplacian, &all);
+}
+
+#[test]
+fn no_solver_loses_any_of_the_leading_torus_modes() {
     let w = CouplingMatrix::new(&torus(40), Normalization::Laplacian);
     let expected = torus_eigenvalues(40);
-    for n_modes in [10, 41] {
-        let spectrum = solve(&w, &arpack(n_modes));
+    for (solver, n_modes) in ITERATIVE.into_iter().flat_map(|solver| [(solver, 10), (solver, 41)]) {
+        let spectrum = solve(&w, &with(solver, Modes::Leading(n_modes)));
         check_eigenvalues(&spectrum, &expected, 1e-12);
         // Pairs (a, b) and signs: the eigenvalue continues as long as the closed form does.
         let n = spectrum.eigenvalues.len();
         assert!(n >= n_modes && expected[n - 1] - expected[n] > 1e-6);
         assert!(expected[n_modes - 1] - expected[n - 1] < 1e-9);
+        check_verified(&spectrum, 1600);
     }
 }
 
 #[test]
-fn arpack_loses_none_of_two_hundred_joined_cliques() {
+fn no_solver_loses_any_of_two_hundred_joined_cliques() {
     let w = CouplingMatrix::new(&ring_of_cliques(200), Normalization::Laplacian);
     let all = solve(&w, &dense());
-    for n_modes in [40, 200] {
-        let leading = solve(&w, &arpack(n_modes));
+    for (solver, n_modes) in ITERATIVE.into_iter().flat_map(|solver| [(solver, 40), (solver, 200)])
+    {
+        let leading = solve(&w, &with(solver, Modes::Leading(n_modes)));
         let n = leading.eigenspaces.len();
         assert_eq!(leading.eigenspaces, all.eigenspaces[..n]);
         assert!(all.eigenspaces[n - 1].contains(&(n_modes - 1)));
         check_eigenvalues(&leading, &all.eigenvalues, 1e-11);
     }
+}
+
+#[test]
+fn the_grid_of_ninety_thousand_nodes_keeps_its_pairs_by_shift_invert() {
+    let w = CouplingMatrix::new(&grid(300), Normalization::Laplacian);
+    let spectrum = solve(&w, &with(SolverChoice::Auto, Modes::Leading(10)));
+    assert_eq!(spectrum.solver, Solver::ShiftInvert);
+    check_eigenvalues(&spectrum, &grid_eigenvalues(300, 12), 1e-13);
+    assert_eq!(multiplicities(&spectrum), [1, 2, 1, 2, 2, 1, 2]);
+    assert_eq!(spectrum.verification, Verification::Inertia { count: 11 });
+}
+
+#[test]
+fn the_path_of_a_hundred_thousand_nodes_has_simple_eigenvalues_a_billionth_apart() {
+    let n = 100_000;
+    let w = CouplingMatrix::new(&path(n), Normalization::Laplacian);
+    let spectrum = solve(&w, &with(SolverChoice::Auto, Modes::Leading(10)));
+    assert_eq!(spectrum.solver, Solver::ShiftInvert);
+    let expected: Vec<f64> =
+        (0..11).map(|k| -4.0 * (0.5 * PI * f64::from(k) / n as f64).sin().powi(2)).collect();
+    check_eigenvalues(&spectrum, &expected, 1e-14);
+    assert_eq!(multiplicities(&spectrum), [1; 10]);
+    assert_eq!(spectrum.verification, Verification::Inertia { count: 10 });
 }
 
 #[test]

@@ -8,6 +8,7 @@ use common::{
     BOTH, arpack, check_eigenvalues, complete, condition, dense, dot, network, ring, scale, solve,
     star, torus,
 };
+use graph::generators::{LinkProbability, communities};
 use graph::{CouplingMatrix, Network, Normalization};
 use proptest::prelude::*;
 use spectra::{Modes, Request, Solver, SolverChoice, SpectraError, Spectrum, leading_modes};
@@ -72,14 +73,16 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn both_solvers_agree(network in any_network(), part in 0.0..1.0f64, seed in any::<u64>()) {
+    fn all_solvers_agree(network in any_network(), part in 0.0..1.0f64, seed in any::<u64>()) {
         for normalization in BOTH {
             let w = CouplingMatrix::new(&network, normalization);
             let all = solve(&w, &dense());
-            let n_modes = 1 + (part * (w.n_nodes() - 1) as f64) as usize;
-            let leading = solve(&w, &Request { seed, ..arpack(n_modes.min(w.n_nodes() - 1)) });
-            check_eigenvalues(&leading, &all.eigenvalues, 1e-10 * scale(&w));
-            check_same_eigenspaces(&w, &leading, &all);
+            let n_modes = (1 + (part * (w.n_nodes() - 1) as f64) as usize).min(w.n_nodes() - 1);
+            for request in [arpack(n_modes), chebyshev(n_modes), shift_invert(n_modes)] {
+                let leading = solve(&w, &Request { seed, ..request });
+                check_eigenvalues(&leading, &all.eigenvalues, 1e-10 * scale(&w));
+                check_same_eigenspaces(&w, &leading, &all);
+            }
         }
     }
 
@@ -88,7 +91,7 @@ proptest! {
         let n_components = network.components().len();
         for normalization in BOTH {
             let w = CouplingMatrix::new(&network, normalization);
-            for request in [dense(), arpack(1)] {
+            for request in [dense(), arpack(1), chebyshev(1), shift_invert(1)] {
                 let spectrum = solve(&w, &request);
                 prop_assert_eq!(spectrum.eigenspaces[0].clone(), 0..n_components);
                 prop_assert!(spectrum.eigenvalues[0].abs() < 1e-12 * scale(&w));
@@ -114,7 +117,15 @@ fn bits(spectrum: &Spectrum) -> (Vec<u64>, Vec<u64>, Vec<u64>, usize) {
     (of(eigenvalues), of(&eigenvectors.concat()), of(residuals), *products)
 }
 
-/// Matrices on which ARPACK meets invariant spaces (complete graph, star) and on which it does not.
+fn chebyshev(n_modes: usize) -> Request {
+    common::with(SolverChoice::Chebyshev, Modes::Leading(n_modes))
+}
+
+fn shift_invert(n_modes: usize) -> Request {
+    common::with(SolverChoice::ShiftInvert, Modes::Leading(n_modes))
+}
+
+/// Matrices on which solvers meet invariant spaces (complete graph, star) and on which it does not.
 fn fixtures() -> Vec<(CouplingMatrix, Request)> {
     let with = |network: &Network, request| {
         (CouplingMatrix::new(network, Normalization::Laplacian), request)
@@ -124,6 +135,11 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
         with(&complete(30), arpack(2)),
         with(&star(40), arpack(3)),
         with(&torus(12), dense()),
+        with(&torus(12), chebyshev(20)),
+        with(&star(40), chebyshev(3)),
+        with(&complete(30), shift_invert(2)),
+        with(&torus(60), chebyshev(9)),
+        with(&torus(60), shift_invert(9)),
     ]
 }
 
@@ -154,13 +170,27 @@ fn two_threads_that_solve_at_once_get_what_one_gets() {
 }
 
 #[test]
+fn the_number_of_threads_changes_no_bit() {
+    let fixtures = fixtures();
+    let bits_with = |n_threads: usize| -> Vec<_> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| fixtures.iter().map(|(w, request)| bits(&solve(w, request))).collect())
+    };
+    let one = bits_with(1);
+    assert!(bits_with(2) == one);
+    assert!(bits_with(5) == one);
+}
+
+#[test]
 fn another_seed_gives_the_same_eigenspaces() {
     let w = CouplingMatrix::new(&torus(12), Normalization::Laplacian);
     let all = solve(&w, &dense());
     for seed in 0..20 {
-        let leading = solve(&w, &Request { seed, ..arpack(20) });
-        assert_eq!(leading.eigenvalues.len(), 21);
-        check_same_eigenspaces(&w, &leading, &all);
+        for request in [arpack(20), chebyshev(20), shift_invert(20)] {
+            let leading = solve(&w, &Request { seed, ..request });
+            assert_eq!(leading.eigenvalues.len(), 21);
+            check_same_eigenspaces(&w, &leading, &all);
+        }
     }
 }
 
@@ -233,7 +263,23 @@ fn the_solver_is_chosen_by_size_and_count() {
         solve(&w, &Request { modes, ..Request::default() }).solver
     };
     assert_eq!(solver(300, Modes::Leading(1)), Solver::Dense);
-    assert_eq!(solver(spectra::DENSE_NODES + 1, Modes::Leading(1)), Solver::Arpack);
+    assert_eq!(solver(600, Modes::All), Solver::Dense);
+    assert_eq!(solver(600, Modes::Above(-0.5)), Solver::Dense);
+    assert_eq!(solver(600, Modes::Leading(1)), Solver::ShiftInvert);
+    assert_eq!(solver(spectra::DENSE_NODES + 1, Modes::Above(-0.5)), Solver::ShiftInvert);
+}
+
+#[test]
+fn without_small_separators_medium_networks_go_to_arpack_and_large_ones_to_filters() {
+    for (n_nodes, expected) in [(3000, Solver::Arpack), (6000, Solver::Chebyshev)] {
+        let size = n_nodes / 3;
+        let probability =
+            LinkProbability::Uniform { within: 16.0 / size as f64, between: 1.0 / size as f64 };
+        let network = communities(&[size; 3], &probability, 1).unwrap();
+        let w = CouplingMatrix::new(&network, Normalization::Normalized);
+        let request = Request { modes: Modes::Leading(3), ..Request::default() };
+        assert_eq!(solve(&w, &request).solver, expected);
+    }
 }
 
 #[test]

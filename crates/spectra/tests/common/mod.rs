@@ -48,6 +48,38 @@ pub fn ring_of_cliques(n_cliques: usize) -> Network {
     unit(5 * n_cliques, (0..n_cliques).flat_map(|c| clique(c).chain([bridge(c)])))
 }
 
+/// Nodes are linked when their numbers differ in one binary digit.
+pub fn hypercube(n_digits: usize) -> Network {
+    let bits = move |i: usize| (0..n_digits).map(move |k| (i, i ^ (1 << k)));
+    unit(1 << n_digits, (0..1 << n_digits).flat_map(bits).filter(|(i, j)| i < j))
+}
+
+pub fn complete_bipartite(n_left: usize, n_right: usize) -> Network {
+    let from = move |i: usize| (n_left..n_left + n_right).map(move |j| (i, j));
+    unit(n_left + n_right, (0..n_left).flat_map(from))
+}
+
+/// A square grid with open ends.
+pub fn grid(side: usize) -> Network {
+    let cells = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
+    let links = cells.flat_map(move |(i, j)| {
+        let right = (j + 1 < side).then(|| (i * side + j, i * side + j + 1));
+        let down = (i + 1 < side).then(|| (i * side + j, (i + 1) * side + j));
+        right.into_iter().chain(down)
+    });
+    unit(side * side, links)
+}
+
+/// The leading eigenvalues 2 (cos πa/side − 1) + 2 (cos πb/side − 1) of a square grid, descending.
+pub fn grid_eigenvalues(side: usize, n_modes: usize) -> Vec<f64> {
+    // −4 sin² loses no digits near 0. Modes with a + b beyond n_modes are not among the leading.
+    let along = |a: usize| -4.0 * (0.5 * PI * a as f64 / side as f64).sin().powi(2);
+    let top = n_modes.min(side);
+    let mut values = descending((0..top).flat_map(|a| (0..top).map(move |b| along(a) + along(b))));
+    values.truncate(n_modes);
+    values
+}
+
 /// The network of the paper's Fig. 1(a1).
 pub fn six_node() -> Network {
     let unit_links = [(1, 2), (1, 4), (1, 6), (2, 3), (3, 4), (4, 5), (5, 6)];
@@ -92,6 +124,14 @@ pub fn arpack(n_modes: usize) -> Request {
     Request { modes: Modes::Leading(n_modes), solver: SolverChoice::Arpack, ..Request::default() }
 }
 
+pub fn with(solver: SolverChoice, modes: Modes) -> Request {
+    Request { modes, solver, ..Request::default() }
+}
+
+/// Every iterative solver.
+pub const ITERATIVE: [SolverChoice; 3] =
+    [SolverChoice::Arpack, SolverChoice::Chebyshev, SolverChoice::ShiftInvert];
+
 /// Solves, and checks what every spectrum must satisfy.
 pub fn solve(w: &CouplingMatrix, request: &Request) -> Spectrum {
     let spectrum = leading_modes(w, request).unwrap();
@@ -100,7 +140,9 @@ pub fn solve(w: &CouplingMatrix, request: &Request) -> Spectrum {
 }
 
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    // In parts, so that rounding does not grow with the length of long vectors.
+    let part = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    a.chunks(300).zip(b.chunks(300)).map(part).sum()
 }
 
 /// max_i |w_ii|.

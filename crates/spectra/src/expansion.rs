@@ -1,0 +1,76 @@
+//! How the block method amplifies what is wanted: a Chebyshev filter, or (μ − S)⁻¹.
+
+use crate::block::Block;
+use crate::chebyshev::{Filter, Interval};
+use crate::factorisation::Inverse;
+
+/// The highest degree of a filter.
+const HIGHEST_DEGREE: usize = 24;
+/// A filter may amplify the largest eigenvalue by this much more than those searched for: what
+/// rounding leaves of modes found then stays small.
+const LARGEST_GAIN: f64 = 1e10;
+
+/// An operator whose largest eigenvalues belong to the wanted eigenvectors.
+pub(crate) enum Amplifier<'a> {
+    /// T_d(t(S)).
+    Chebyshev {
+        filter: &'a Filter<'a>,
+        /// At most the smallest eigenvalue of S.
+        low: f64,
+        /// Upper end of the unwanted part while little is known.
+        first_guess: f64,
+    },
+    /// (μ − S)⁻¹.
+    ShiftInvert(Inverse<'a, 'a>),
+}
+
+/// What is known of the spectrum when vectors are amplified.
+pub(crate) struct Situation {
+    /// The largest eigenvalue.
+    pub top: f64,
+    /// A Ritz value below all that are wanted, hence a lower bound of an eigenvalue.
+    pub guard: Option<f64>,
+    /// Below which eigenvalues are unwanted by request.
+    pub cutoff: Option<f64>,
+}
+
+impl Amplifier<'_> {
+    /// Products that each vector costs.
+    pub fn products(&self, situation: &Situation) -> usize {
+        match self {
+            Self::Chebyshev { low, first_guess, .. } => {
+                degree(situation, interval(situation, *low, *first_guess))
+            }
+            Self::ShiftInvert(_) => 1,
+        }
+    }
+
+    /// Amplifies the vectors of a block.
+    pub fn apply(&self, mut block: Block, situation: &Situation) -> Block {
+        match self {
+            Self::Chebyshev { filter, low, first_guess } => {
+                let unwanted = interval(situation, *low, *first_guess);
+                filter.apply(block, degree(situation, unwanted), unwanted)
+            }
+            Self::ShiftInvert(inverse) => {
+                inverse.apply(&mut block);
+                block
+            }
+        }
+    }
+}
+
+fn interval(situation: &Situation, low: f64, first_guess: f64) -> Interval {
+    let high = situation.guard.unwrap_or(first_guess);
+    let high = situation.cutoff.map_or(high, |cutoff| high.min(cutoff));
+    // Where all that is left lies at the lower end, an interval of no width would amplify nothing
+    // but rounding.
+    let narrowest = 0.01 * (situation.top - low);
+    Interval { low: low.min(high - narrowest), high }
+}
+
+fn degree(situation: &Situation, unwanted: Interval) -> usize {
+    let growth = unwanted.growth(situation.top);
+    let highest = LARGEST_GAIN.ln() / growth;
+    (highest.min(HIGHEST_DEGREE as f64) as usize).max(1)
+}

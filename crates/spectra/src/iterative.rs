@@ -1,0 +1,113 @@
+//! The leading modes by an iterative solver, chosen where the choice is free.
+//!
+//! Small separators make both a cheap factorisation and, by Cheeger's inequality, small gaps between
+//! the leading eigenvalues, on which filters are slow. So shift-invert is taken where its factor is
+//! cheap next to the products that a filter is expected to need. Elsewhere networks of medium size go
+//! to ARPACK, where it costs a fraction of a second, and large ones to blocks and filters, which take
+//! half of its time or less.
+
+use graph::CouplingMatrix;
+
+use crate::chebyshev::Filter;
+use crate::completeness::{self, Found};
+use crate::davidson::Search;
+use crate::expansion::Amplifier;
+use crate::factorisation::{DENSE_SPEED, MOST_NONZEROS, MOST_OPERATIONS, Symbolic};
+use crate::lanczos::Look;
+use crate::progress::Progress;
+use crate::random::Random;
+use crate::request::{ARPACK_NODES, Plan};
+use crate::verification::Verifier;
+use crate::{Solver, SolverChoice, SpectraError, Verification};
+
+/// Nonzeros of a factor for each of the matrix beyond which no factorisation is tried unless it is
+/// asked for.
+const CHEAP_FILL: f64 = 10.0;
+/// Products that a filter is expected to spend at least.
+const EXPECTED_PRODUCTS: f64 = 500.0;
+/// Products that it is expected to spend for each level of a breadth-first search; on square grids it
+/// is 17.
+const PRODUCTS_PER_LEVEL: f64 = 16.0;
+/// Solutions of the factorised system that shift-invert is expected to spend, besides four a mode.
+const EXPECTED_SOLUTIONS: f64 = 20.0;
+
+/// Most modes that are left to ARPACK where the choice is free: its work grows with their square.
+const MOST_ARPACK_MODES: usize = 50;
+
+/// Modes, the solver that found them, and how it is known that they are complete.
+pub(crate) fn leading(
+    w: &CouplingMatrix,
+    plan: &Plan,
+    progress: Progress<'_>,
+) -> Result<(Found, Solver, Verification), SpectraError> {
+    let mut random = Random::new(plan.seed);
+    let look = Look::new(w, plan.scale, &mut random)?;
+    let most_fill = match plan.choice {
+        SolverChoice::ShiftInvert => f64::INFINITY,
+        _ => CHEAP_FILL * w.symmetric().nnz() as f64,
+    };
+    let symbolic = Symbolic::within_budget(w.symmetric(), most_fill);
+    let filter = Filter::new(w);
+    let verifier = Verifier {
+        w,
+        symbolic: symbolic.as_ref(),
+        filter: &filter,
+        low: look.low,
+        grouping: plan.grouping,
+    };
+    let solver = choose(w, plan, symbolic.as_ref())?;
+    if solver == Solver::Arpack {
+        let (found, verification) = completeness::leading(w, plan, &verifier, random)?;
+        return Ok((found, solver, verification));
+    }
+    let amplifier = match &symbolic {
+        Some(symbolic) if solver == Solver::ShiftInvert => {
+            // Nothing smaller than the grouping is told apart from 0.
+            let shift = plan.grouping;
+            let inverse =
+                symbolic.positive(shift).ok_or(SpectraError::NotPositiveDefinite { shift })?;
+            Amplifier::ShiftInvert(inverse)
+        }
+        _ => Amplifier::Chebyshev {
+            filter: &filter,
+            low: look.low,
+            first_guess: look.exceeded_by(4 * (plan.wanted.at_least() + 4)),
+        },
+    };
+    let search = Search::new(w, plan, random, look.products, progress)?;
+    let (found, verification) = search.run(&amplifier, &verifier)?;
+    Ok((found, solver, verification))
+}
+
+fn choose(
+    w: &CouplingMatrix,
+    plan: &Plan,
+    symbolic: Option<&Symbolic<'_>>,
+) -> Result<Solver, SpectraError> {
+    match (plan.choice, symbolic) {
+        (SolverChoice::Dense, _) => unreachable!("the dense solver is not iterative"),
+        (SolverChoice::Arpack, _) => Ok(Solver::Arpack),
+        (SolverChoice::Chebyshev, _) => Ok(Solver::Chebyshev),
+        (SolverChoice::Auto, None) => Ok(by_products(w, plan)),
+        (SolverChoice::ShiftInvert, Some(_)) => Ok(Solver::ShiftInvert),
+        (SolverChoice::ShiftInvert, None) => Err(SpectraError::FactorTooLarge {
+            n_nodes: w.n_nodes(),
+            most: MOST_NONZEROS,
+            most_operations: MOST_OPERATIONS,
+        }),
+        (SolverChoice::Auto, Some(symbolic)) => {
+            let solutions = EXPECTED_SOLUTIONS + 4.0 * plan.wanted.at_least() as f64;
+            let inverse =
+                symbolic.operations / DENSE_SPEED + 2.0 * solutions * symbolic.nonzeros() as f64;
+            let expected = EXPECTED_PRODUCTS.max(PRODUCTS_PER_LEVEL * symbolic.levels as f64);
+            let products = expected * w.symmetric().nnz() as f64;
+            Ok(if inverse < products { Solver::ShiftInvert } else { by_products(w, plan) })
+        }
+    }
+}
+
+/// The solver that only multiplies: ARPACK for a few modes of a network of medium size.
+fn by_products(w: &CouplingMatrix, plan: &Plan) -> Solver {
+    let few = plan.wanted.cutoff().is_none() && plan.wanted.at_least() <= MOST_ARPACK_MODES;
+    if few && w.n_nodes() <= ARPACK_NODES { Solver::Arpack } else { Solver::Chebyshev }
+}

@@ -1,0 +1,15 @@
+//! What a long solve tells while it runs.
+
+/// How far a solve has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Advance {
+    /// Matrix–vector products spent so far, solutions of factorised systems included.
+    pub products: usize,
+    /// Modes found to the residual asked for.
+    pub converged: usize,
+    /// Modes looked for, as far as known: with a cutoff the number may grow.
+    pub wanted: usize,
+}
+
+/// Called from the thread that asked for the spectrum, whenever a solver has come further.
+pub type Progress<'a> = &'a dyn Fn(Advance);

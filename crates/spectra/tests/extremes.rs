@@ -1,0 +1,112 @@
+//! Networks at the edge of what is sensible: tiny, in pieces, or with weights of all sizes.
+
+mod common;
+
+use common::{BOTH, ITERATIVE, check_eigenvalues, dense, network, scale, solve, with};
+use graph::{CouplingMatrix, Normalization};
+use spectra::{Modes, SolverChoice, SpectraError, leading_modes};
+
+const EVERY: [SolverChoice; 5] = [
+    SolverChoice::Auto,
+    SolverChoice::Dense,
+    SolverChoice::Arpack,
+    SolverChoice::Chebyshev,
+    SolverChoice::ShiftInvert,
+];
+
+#[test]
+fn one_node_has_one_mode_by_every_solver_but_arpack() {
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&network(1, &[]), normalization);
+        for solver in EVERY.into_iter().filter(|&solver| solver != SolverChoice::Arpack) {
+            for modes in [Modes::Leading(1), Modes::All, Modes::Above(-1.0)] {
+                let spectrum = solve(&w, &with(solver, modes));
+                assert_eq!(spectrum.eigenvalues, [0.0]);
+                assert_eq!(spectrum.eigenvectors, [[1.0]]);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_nodes_have_their_modes_by_every_solver() {
+    let w = CouplingMatrix::new(&network(2, &[(0, 1, 0.7)]), Normalization::Laplacian);
+    for solver in EVERY {
+        assert_eq!(solve(&w, &with(solver, Modes::Leading(1))).eigenvalues.len(), 1);
+        assert_eq!(solve(&w, &with(solver, Modes::Above(-1.0))).eigenvalues.len(), 1);
+        if solver != SolverChoice::Arpack {
+            let all = solve(&w, &with(solver, Modes::All));
+            check_eigenvalues(&all, &[0.0, -1.4], 1e-15);
+        }
+    }
+}
+
+#[test]
+fn pieces_and_isolated_nodes_are_copies_of_zero() {
+    // A triangle, a pair, a path of three, and four nodes on their own: seven components.
+    let links = [(0, 1), (1, 2), (2, 0), (3, 4), (5, 6), (6, 7)];
+    let links: Vec<_> = links.iter().map(|&(i, j)| (i, j, 1.0)).collect();
+    let pieces = network(12, &links);
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&pieces, normalization);
+        let all = solve(&w, &dense());
+        for solver in EVERY {
+            for n_modes in [1, 8, 10] {
+                let leading = solve(&w, &with(solver, Modes::Leading(n_modes)));
+                assert_eq!(leading.eigenspaces[0], 0..7, "{solver:?}");
+                check_eigenvalues(&leading, &all.eigenvalues, 1e-13);
+            }
+        }
+    }
+}
+
+#[test]
+fn more_pieces_than_may_be_returned_are_refused() {
+    let w = CouplingMatrix::new(&network(3000, &[(0, 1, 1.0)]), Normalization::Laplacian);
+    for solver in ITERATIVE {
+        assert!(matches!(
+            leading_modes(&w, &with(solver, Modes::Leading(5))),
+            Err(SpectraError::EigenspaceTooLarge { requested: 5, found: 2999, .. })
+        ));
+        assert!(matches!(
+            leading_modes(&w, &with(solver, Modes::Above(-1.0))),
+            Err(SpectraError::TooManyAbove { found: 2999, .. })
+        ));
+    }
+}
+
+/// A ring with chords whose weights go from 10⁻⁶ to 10⁶.
+fn uneven(n_nodes: usize) -> graph::Network {
+    let weight = |k: usize| 10f64.powf(12.0 * (k * 7919 % 1000) as f64 / 999.0 - 6.0);
+    let ring = (0..n_nodes).map(|i| (i, (i + 1) % n_nodes, weight(i)));
+    let chords = (0..n_nodes / 3).map(|i| (i, (i + n_nodes / 2) % n_nodes, weight(3 * i + 1)));
+    network(n_nodes, &ring.chain(chords).collect::<Vec<_>>())
+}
+
+#[test]
+fn weights_over_twelve_orders_keep_eigenvalues_to_the_tolerance_of_the_strongest() {
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&uneven(120), normalization);
+        let all = solve(&w, &dense());
+        for solver in [SolverChoice::Chebyshev, SolverChoice::ShiftInvert] {
+            let leading = solve(&w, &with(solver, Modes::Leading(30)));
+            check_eigenvalues(&leading, &all.eigenvalues, 2e-12 * scale(&w));
+            let whole = all.eigenspaces.iter().find(|range| range.end >= 30).unwrap().end;
+            assert_eq!(leading.eigenvalues.len(), whole, "{solver:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_weaker_than_the_tolerance_counts_as_apart() {
+    // Two strong pairs behind a link 10⁻¹² as strong: their difference mode is not told from 0.
+    let w = CouplingMatrix::new(
+        &network(4, &[(0, 1, 1e6), (2, 3, 1e6), (1, 2, 1e-6)]),
+        Normalization::Laplacian,
+    );
+    for solver in EVERY {
+        let spectrum = solve(&w, &with(solver, Modes::Leading(1)));
+        assert_eq!((spectrum.eigenspaces.len(), spectrum.eigenvalues.len()), (1, 2), "{solver:?}");
+        assert!(spectrum.tolerance >= 1e-10 * 1e6);
+    }
+}
