@@ -40,7 +40,7 @@ pub struct State {
     /// The nodes that stay together.
     pub clusters: Partition,
     /// Whether the range ends only because the next modes were not computed: at its lower end the
-    /// last computed eigenspace becomes unstable, and others may with it.
+    /// last computed eigenspace becomes unstable, and others may with it, or the next ones may.
     pub truncated: bool,
 }
 
@@ -58,8 +58,8 @@ impl State {
 /// of the stable set without an upper end counts as unbounded.
 ///
 /// From a partial spectrum (leading modes only) the states reach down to where the last computed
-/// eigenspace becomes unstable, as modes that were not computed may follow at once; the last state
-/// then is `truncated`.
+/// eigenspace becomes unstable, as modes that were not computed may follow at once, or to where an
+/// eigenvalue at the spectrum's cutoff would; the last state then is `truncated`.
 ///
 /// # Errors
 /// - [`ClusteringError::PartialSpectrum`] for a partial spectrum where the stable set is bounded
@@ -157,7 +157,8 @@ fn lowest_coupling(
     if computed == n_nodes {
         return Ok(0.0);
     }
-    let largest = eigenspaces.last().map_or(0.0, |space| space.magnitude);
+    let of_cutoff = spectrum.cutoff.map_or(0.0, |cutoff| -cutoff);
+    let largest = eigenspaces.last().map_or(0.0, |space| space.magnitude).max(of_cutoff);
     if largest == 0.0 {
         return Err(ClusteringError::NoTransverseMode { computed, n_nodes });
     }

@@ -286,7 +286,9 @@ mod tests {
             residuals: vec![0.0; n_modes],
             tolerance: 1e-10,
             solver: Solver::Dense,
+            cutoff: None,
             products: 0,
+            verification: spectra::Verification::Dense,
         }
     }
 

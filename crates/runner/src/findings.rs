@@ -63,18 +63,21 @@ impl Curves {
     }
 }
 
-/// Runs a plan: spectrum, MSF, prediction, simulation.
+/// Runs a plan: MSF, spectrum, prediction, simulation.
 pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Findings> {
     let failed = |what: &str, error: &dyn std::fmt::Display| {
         Problem::from_error(what, error).in_file(&plan.file)
     };
+    let msf = curves.of(plan, stages)?;
+    let stable = msf.stable_region();
+    let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
     let spectrum = stages
-        .unmeasured("spectrum", || spectra::leading_modes(&plan.matrix, &plan.spectrum))
+        .told("spectrum", |tell| {
+            spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
+        })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
     check::warn_of_weak_links(plan, &spectrum);
-    let msf = curves.of(plan, stages)?;
     let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
-    let stable = msf.stable_region();
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
         .measured("clusters", n_states, |progress| {
@@ -97,6 +100,11 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement })
+}
+
+fn advanced(advance: spectra::Advance) -> String {
+    let spectra::Advance { products, converged, wanted } = advance;
+    format!("{converged} of {wanted} modes found, {products} matrix-vector products")
 }
 
 fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {

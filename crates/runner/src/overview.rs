@@ -6,6 +6,7 @@ use std::fmt::Write;
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
+use spectra::Verification;
 
 use crate::findings::{EQUITABLE, Findings};
 use crate::plan::Plan;
@@ -47,8 +48,20 @@ fn modes(findings: &Findings) -> String {
     let spectrum = &findings.spectrum;
     let residual = spectrum.residuals.iter().copied().fold(0.0, f64::max);
     let multiple = spectrum.eigenspaces.iter().filter(|modes| modes.len() > 1).count();
+    let verified = match spectrum.verification {
+        Verification::Dense => "all of them were computed".to_owned(),
+        Verification::Inertia { .. } => {
+            "none missing, by the inertia of a factorisation".to_owned()
+        }
+        Verification::Probed { confidence, .. } => {
+            format!(
+                "none missing, unless with a probability below {}",
+                two_digits(1.0 - confidence)
+            )
+        }
+    };
     let mut text = format!(
-        "{} computed, residuals up to {}",
+        "{} computed, residuals up to {}; {verified}",
         spectrum.eigenvalues.len(),
         two_digits(residual)
     );

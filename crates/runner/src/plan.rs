@@ -5,6 +5,7 @@ mod claims;
 mod network;
 mod numbers;
 mod source;
+mod spectrum;
 
 use std::path::{Path, PathBuf};
 
@@ -16,11 +17,12 @@ use graph::{CouplingMatrix, Network, Normalization};
 
 pub use network::nodes_named;
 use serde_json::Value;
+pub use spectrum::SpectrumPlan;
 
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::spec::{
-    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SolverKind, SweepSpec, WordOr,
+    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
@@ -28,9 +30,6 @@ pub const QUICK: f64 = 10.0;
 
 /// Up to this many nodes all pairs are observed; beyond it only what the file asks for.
 const ALL_PAIRS: usize = 2000;
-
-/// The most nodes for the dense solver, which at this size needs 20 GB a matrix and a day.
-const DENSE_MOST: usize = 50_000;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -50,7 +49,7 @@ pub struct Plan {
     /// What each step of preparation did.
     pub preparation: Vec<Report>,
     pub matrix: CouplingMatrix,
-    pub spectrum: spectra::Request,
+    pub spectrum: SpectrumPlan,
     pub node: msf::Node,
     pub msf: msf::Request,
     pub rule: ClusterRule,
@@ -227,57 +226,6 @@ impl Checker<'_> {
         })
     }
 
-    fn spectrum(&self, n_nodes: usize) -> Result<spectra::Request> {
-        let spec = &self.experiment.spectrum;
-        let (modes, asked) = match spec.modes {
-            WordOr::Word(_) => (spectra::Modes::All, n_nodes),
-            WordOr::Number(modes) => {
-                let modes = usize::try_from(modes).unwrap_or(usize::MAX);
-                if modes == 0 {
-                    return Err(self.problem("spectrum.modes", "is 0, but must be 1 or more"));
-                }
-                // A network that has no more shows all of its modes.
-                (spectra::Modes::Leading(modes.min(n_nodes)), modes.min(n_nodes))
-            }
-        };
-        let solver = match spec.solver {
-            SolverKind::Auto => spectra::SolverChoice::Auto,
-            SolverKind::Dense => spectra::SolverChoice::Dense,
-            SolverKind::Arpack => spectra::SolverChoice::Arpack,
-        };
-        self.solvable(solver, asked, n_nodes)?;
-        Ok(spectra::Request { modes, solver, ..spectra::Request::default() })
-    }
-
-    /// Refuses what the solvers cannot do for so many modes of so many nodes.
-    fn solvable(&self, solver: spectra::SolverChoice, modes: usize, n_nodes: usize) -> Result<()> {
-        if solver == spectra::SolverChoice::Arpack && modes == n_nodes {
-            let message = format!(
-                "is \"arpack\", which cannot find all {n_nodes} modes of a network, only fewer"
-            );
-            let hint = format!(
-                "set `spectrum.modes` to {} or less, or leave `spectrum.solver` out",
-                n_nodes - 1
-            );
-            return Err(self.problem("spectrum.solver", message).hint(hint));
-        }
-        let dense = match solver {
-            spectra::SolverChoice::Arpack => false,
-            spectra::SolverChoice::Dense => true,
-            // Half of all modes and more are found by the dense solver, too.
-            spectra::SolverChoice::Auto => modes > n_nodes / 2,
-        };
-        if dense && n_nodes > DENSE_MOST {
-            let message = format!(
-                "asks for {modes} modes of {n_nodes} nodes from the dense solver, whose matrices \
-                 take 8 N² bytes each; the most is {DENSE_MOST} nodes"
-            );
-            let hint = "set `spectrum.modes` to the number of leading modes you need";
-            return Err(self.problem("spectrum.modes", message).hint(hint));
-        }
-        Ok(())
-    }
-
     fn msf(&self, coupling: Coupling) -> Result<msf::Request> {
         let spec = &self.experiment.msf;
         let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
@@ -313,8 +261,8 @@ impl Checker<'_> {
 
     fn rule(&self) -> Result<ClusterRule> {
         match self.experiment.prediction.threshold {
-            WordOr::Word(_) => Ok(ClusterRule::Exact),
-            WordOr::Number(threshold) => {
+            ThresholdSpec::Exact => Ok(ClusterRule::Exact),
+            ThresholdSpec::Within(threshold) => {
                 self.positive("prediction.threshold", threshold)?;
                 Ok(ClusterRule::Threshold(threshold))
             }

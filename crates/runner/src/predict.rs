@@ -40,6 +40,13 @@ pub struct Args {
     /// Leading modes to compute; the cascade reaches down to where the last of them becomes unstable
     #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
     modes: u32,
+    /// Instead of a number of modes: all that are unstable at this coupling strength, so that the
+    /// cascade reaches down to it
+    #[arg(long, value_name = "EPSILON", conflicts_with = "modes")]
+    unstable_at: Option<f64>,
+    /// Largest relative residual of a mode; by default 1e-12, beyond 5000 nodes 1e-10
+    #[arg(long, value_name = "RESIDUAL")]
+    tolerance: Option<f64>,
     /// Nodes are one cluster in steps of the eigenvector distance of at most this; without it, where
     /// it is zero up to the accuracy of the solver
     #[arg(long, value_name = "DISTANCE")]
@@ -88,6 +95,16 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
+fn spectrum(args: &Args) -> Value {
+    let modes = match args.unstable_at {
+        Some(epsilon) => table([("unstable_at", epsilon.into())]),
+        None => i64::from(args.modes).into(),
+    };
+    let mut spectrum = toml::Table::from_iter([("modes".to_owned(), modes)]);
+    spectrum.extend(args.tolerance.map(|tolerance| ("tolerance".to_owned(), tolerance.into())));
+    spectrum.into()
+}
+
 /// The experiment file in the results folder.
 const EXPERIMENT: &str = "experiment.toml";
 
@@ -127,7 +144,7 @@ fn experiment(args: &Args, stages: &Stages) -> Result<String> {
     let coupling =
         [("matrix", name(&args.matrix).into()), ("from", from.into()), ("to", to.into())];
     document.insert("coupling".into(), table(coupling));
-    document.insert("spectrum".into(), table([("modes", i64::from(args.modes).into())]));
+    document.insert("spectrum".into(), spectrum(args));
     if let Some(threshold) = args.threshold {
         document.insert("prediction".into(), table([("threshold", threshold.into())]));
     }

@@ -76,6 +76,20 @@ pub struct SpectrumRecord {
     pub tolerance: f64,
     /// Largest ‖W v − λ v‖.
     pub largest_residual: f64,
+    /// Where all modes with larger eigenvalues were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cutoff: Option<f64>,
+    pub verified: VerifiedRecord,
+}
+
+/// How it is known that no mode is missing above the last one, or above the cutoff.
+#[derive(Serialize)]
+pub struct VerifiedRecord {
+    /// `dense`: all were computed; `inertia`: counted by a factorisation; `probed`: random vectors
+    /// showed no further one.
+    pub by: &'static str,
+    /// 1 less the largest probability that one is missing nevertheless.
+    pub confidence: f64,
 }
 
 #[derive(Serialize)]
@@ -179,6 +193,8 @@ pub fn summarise(
             solver: match spectrum.solver {
                 spectra::Solver::Dense => "dense",
                 spectra::Solver::Arpack => "arpack",
+                spectra::Solver::Chebyshev => "chebyshev",
+                spectra::Solver::ShiftInvert => "shift-invert",
             },
             multiple: spectrum
                 .eigenspaces
@@ -188,6 +204,8 @@ pub fn summarise(
                 .collect(),
             tolerance: spectrum.tolerance,
             largest_residual: spectrum.residuals.iter().copied().fold(0.0, f64::max),
+            cutoff: spectrum.cutoff,
+            verified: verified(spectrum.verification),
         },
         msf: msf_record(findings),
         critical_couplings: critical_records(findings),
@@ -196,6 +214,16 @@ pub fn summarise(
         claims,
         provenance: Provenance::new(plan, &links_hash, took),
         experiment: plan.written.clone(),
+    }
+}
+
+fn verified(verification: spectra::Verification) -> VerifiedRecord {
+    match verification {
+        spectra::Verification::Dense => VerifiedRecord { by: "dense", confidence: 1.0 },
+        spectra::Verification::Inertia { .. } => VerifiedRecord { by: "inertia", confidence: 1.0 },
+        spectra::Verification::Probed { confidence, .. } => {
+            VerifiedRecord { by: "probed", confidence }
+        }
     }
 }
 

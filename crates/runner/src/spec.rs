@@ -15,7 +15,7 @@ pub use network::{
     RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::Deserialize;
-pub use values::{All, Bound, EvenGrid, Exact, Grid, Layout, Name, WordOr};
+pub use values::{Bound, EvenGrid, Grid, Layout, ModesSpec, Name, ThresholdSpec};
 
 /// An experiment: one network, one oscillator, one question.
 #[derive(Clone, Debug, Deserialize)]
@@ -73,26 +73,25 @@ pub enum MatrixKind {
 }
 
 /// `[spectrum]`: which modes, by which solver.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrumSpec {
-    pub modes: WordOr<All, u64>,
+    pub modes: ModesSpec,
     pub solver: SolverKind,
+    /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
+    pub tolerance: Option<f64>,
 }
 
-impl Default for SpectrumSpec {
-    fn default() -> Self {
-        Self { modes: WordOr::Word(All), solver: SolverKind::Auto }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SolverKind {
-    /// Dense for small networks, ARPACK for large ones.
+    /// Chosen from the network: dense, ARPACK, shift-invert or Chebyshev filters.
+    #[default]
     Auto,
     Dense,
     Arpack,
+    Chebyshev,
+    ShiftInvert,
 }
 
 /// `[msf]`: the master stability function.
@@ -121,7 +120,7 @@ pub struct MsfSpec {
 #[serde(deny_unknown_fields, default)]
 pub struct PredictionSpec {
     /// `"exact"`: δe_ij = 0 up to the solver's accuracy; a number: single linkage below it.
-    pub threshold: WordOr<Exact, f64>,
+    pub threshold: ThresholdSpec,
 }
 
 /// `[sweep]`: simulations over the coupling strength ε.

@@ -43,6 +43,7 @@ pub(crate) fn spectrum(
         eigenvectors: pairs.vectors,
         eigenspaces,
         tolerance: plan.grouping,
+        cutoff: plan.wanted.cutoff(),
         solver,
         products,
         verification,

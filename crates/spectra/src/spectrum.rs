@@ -56,6 +56,9 @@ pub struct Spectrum {
     /// Neighbouring eigenvalues that differ by at most this are one eigenspace: the larger of
     /// 1e-10 max_i |w_ii| and ten times the largest residual allowed.
     pub tolerance: f64,
+    /// Where all modes with λ_k above a cutoff were asked for, that cutoff: whatever was not computed
+    /// lies below it.
+    pub cutoff: Option<f64>,
     /// Which solver found them.
     pub solver: Solver,
     /// Matrix–vector products spent on finding the modes (0 for the dense solver); a solution of a

@@ -111,7 +111,9 @@ fn spectrum(n_nodes: usize, modes: Vec<Vec<f64>>, dimensions: &[usize]) -> Spect
         eigenspaces,
         tolerance: 1e-10,
         solver: Solver::Arpack,
+        cutoff: None,
         products: 0,
+        verification: spectra::Verification::Dense,
     }
 }
 

@@ -66,7 +66,9 @@ pub fn spectrum(mut modes: Vec<(f64, Vec<f64>)>, residual: f64) -> Spectrum {
         eigenspaces,
         tolerance: TOLERANCE,
         solver: Solver::Dense,
+        cutoff: None,
         products: 0,
+        verification: spectra::Verification::Dense,
     }
 }
 

@@ -179,10 +179,7 @@ impl Claim<'_> {
 
     fn modes(&self) -> Result<()> {
         let Some(modes) = &self.spec.at.modes else { return Ok(()) };
-        let computed = match self.plan.spectrum.modes {
-            Modes::All => self.plan.network.n_nodes(),
-            Modes::Leading(modes) => modes,
-        };
+        let computed = self.plan.spectrum.most_modes(self.plan.network.n_nodes());
         if modes.is_empty() {
             return self.refuse(".where.modes", "is empty");
         }

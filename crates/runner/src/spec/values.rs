@@ -1,7 +1,6 @@
 //! Values that can be written in more than one way: node labels, grids, layouts, words or numbers.
 
 use std::fmt;
-use std::marker::PhantomData;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
@@ -82,38 +81,32 @@ impl Grid {
     }
 }
 
-/// A word that stands for itself, or a number.
-#[derive(Clone, Copy, Debug)]
-pub enum WordOr<W, N> {
-    Word(W),
-    Number(N),
+/// `"all"`, a number of leading modes, or `{ unstable_at = … }`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ModesSpec {
+    /// All N.
+    #[default]
+    All,
+    /// So many of the largest eigenvalues.
+    Leading(u64),
+    /// All that are unstable at this ε, or above.
+    UnstableAt(f64),
 }
 
-/// A word that a key accepts in place of a number.
-pub trait Word: Default {
-    const WORD: &'static str;
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UnstableAt {
+    unstable_at: f64,
 }
 
-/// `"all"`.
+/// `"exact"` or a number.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct All;
-
-impl Word for All {
-    const WORD: &'static str = "all";
-}
-
-/// `"exact"`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Exact;
-
-impl Word for Exact {
-    const WORD: &'static str = "exact";
-}
-
-impl<W: Word, N> Default for WordOr<W, N> {
-    fn default() -> Self {
-        Self::Word(W::default())
-    }
+pub enum ThresholdSpec {
+    /// δe_ij = 0 up to the solver's accuracy.
+    #[default]
+    Exact,
+    /// Single linkage up to this δe_ij.
+    Within(f64),
 }
 
 impl<'de> Deserialize<'de> for Name {
@@ -167,6 +160,34 @@ impl<'de> Deserialize<'de> for Bound {
     }
 }
 
+impl<'de> Deserialize<'de> for ModesSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Which;
+        impl<'de> Visitor<'de> for Which {
+            type Value = ModesSpec;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"all\", a whole number or { unstable_at = … }")
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<ModesSpec, E> {
+                match word {
+                    "all" => Ok(ModesSpec::All),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
+                }
+            }
+            fn visit_i64<E: Error>(self, modes: i64) -> Result<ModesSpec, E> {
+                u64::try_from(modes)
+                    .map(ModesSpec::Leading)
+                    .map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(modes), &self))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ModesSpec, A::Error> {
+                UnstableAt::deserialize(MapAccessDeserializer::new(map))
+                    .map(|UnstableAt { unstable_at }| ModesSpec::UnstableAt(unstable_at))
+            }
+        }
+        deserializer.deserialize_any(Which)
+    }
+}
+
 impl<'de> Deserialize<'de> for Grid {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Values;
@@ -210,59 +231,27 @@ impl<'de> Deserialize<'de> for Layout {
     }
 }
 
-impl<'de, W: Word, N: Deserialize<'de> + FromNumber> Deserialize<'de> for WordOr<W, N> {
+impl<'de> Deserialize<'de> for ThresholdSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Either<W, N>(PhantomData<(W, N)>);
-        impl<W: Word, N: FromNumber> Visitor<'_> for Either<W, N> {
-            type Value = WordOr<W, N>;
+        struct Which;
+        impl Visitor<'_> for Which {
+            type Value = ThresholdSpec;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "\"{}\" or {}", W::WORD, N::KIND)
+                f.write_str("\"exact\" or a number")
             }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
-                if word == W::WORD {
-                    Ok(WordOr::Word(W::default()))
-                } else {
-                    Err(E::invalid_value(serde::de::Unexpected::Str(word), &self))
+            fn visit_str<E: Error>(self, word: &str) -> Result<ThresholdSpec, E> {
+                match word {
+                    "exact" => Ok(ThresholdSpec::Exact),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
                 }
             }
-            fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
-                N::from_whole(number)
-                    .map(WordOr::Number)
-                    .ok_or_else(|| E::invalid_value(serde::de::Unexpected::Signed(number), &self))
+            fn visit_i64<E: Error>(self, threshold: i64) -> Result<ThresholdSpec, E> {
+                Ok(ThresholdSpec::Within(threshold as f64))
             }
-            fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
-                N::from_real(number)
-                    .map(WordOr::Number)
-                    .ok_or_else(|| E::invalid_type(serde::de::Unexpected::Float(number), &self))
+            fn visit_f64<E: Error>(self, threshold: f64) -> Result<ThresholdSpec, E> {
+                Ok(ThresholdSpec::Within(threshold))
             }
         }
-        deserializer.deserialize_any(Either(PhantomData))
-    }
-}
-
-/// Numbers that may stand in place of a [`Word`].
-pub trait FromNumber: Sized {
-    const KIND: &'static str;
-    fn from_whole(number: i64) -> Option<Self>;
-    fn from_real(number: f64) -> Option<Self>;
-}
-
-impl FromNumber for f64 {
-    const KIND: &'static str = "a number";
-    fn from_whole(number: i64) -> Option<Self> {
-        Some(number as f64)
-    }
-    fn from_real(number: f64) -> Option<Self> {
-        Some(number)
-    }
-}
-
-impl FromNumber for u64 {
-    const KIND: &'static str = "a whole number";
-    fn from_whole(number: i64) -> Option<Self> {
-        Self::try_from(number).ok()
-    }
-    fn from_real(_: f64) -> Option<Self> {
-        None
+        deserializer.deserialize_any(Which)
     }
 }
