@@ -113,10 +113,13 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
         let computed = findings.spectrum.eigenvalues.len();
+        let why = match findings.spectrum.cutoff {
+            Some(_) => "down to which unstable modes were asked for".to_owned(),
+            None => format!("where mode {computed} becomes unstable, the last one computed"),
+        };
         writeln!(
             text,
-            "The states end at epsilon = {}, where mode {computed} becomes unstable, the last one \
-             computed of {}.",
+            "The states end at epsilon = {}, {why}, of {}.",
             four_digits(last.epsilon.0),
             grouped(plan.network.n_nodes())
         )

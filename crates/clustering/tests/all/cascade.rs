@@ -213,6 +213,22 @@ fn leading_modes_give_the_upper_part_of_the_cascade() {
 }
 
 #[test]
+fn modes_above_a_cutoff_decide_down_to_where_one_at_the_cutoff_would_become_unstable() {
+    let whole = exact(&nepal(), &above(SIGMA_C));
+    let mut spectrum = leading(nepal(), 11);
+    let last = spectrum.eigenvalues[spectrum.eigenvalues.len() - 1];
+    let cutoff = last - 0.5;
+    spectrum.cutoff = Some(cutoff);
+    let part = exact(&spectrum, &above(SIGMA_C));
+    assert_eq!(part[..4], whole[..4]);
+    let below = &part[4];
+    assert_eq!((part.len(), &below.unstable_modes), (5, &whole[4].unstable_modes));
+    assert_eq!(below.clusters, whole[4].clusters);
+    check_range(below, SIGMA_C / -cutoff, Some(SIGMA_C / -last));
+    assert!(below.truncated);
+}
+
+#[test]
 fn leading_modes_stop_above_the_highest_window() {
     // Above σ = 3 for good, and in (1, 2): an uncomputed λ ≤ −8 may be between them below 3/8.
     let stable = region(&[(1.0, Some(2.0)), (3.0, None)]);

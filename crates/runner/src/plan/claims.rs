@@ -2,7 +2,6 @@
 //! states a value of the shape that the quantity has.
 
 use serde::de::DeserializeOwned;
-use spectra::Modes;
 
 use super::{ALL_PAIRS, Checker, Plan};
 use crate::problem::{Result, plain};

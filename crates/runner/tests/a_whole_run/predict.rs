@@ -42,6 +42,29 @@ fn a_prediction_leaves_the_experiment_file_that_says_the_same() {
 }
 
 #[test]
+fn modes_unstable_at_a_coupling_carry_the_cascade_down_to_it() {
+    let place = with_network();
+    // λ = −2 and −3 lie above −8.17 / 2.5, λ = −4 does not.
+    let options = [&LORENZ[..], &["--quick", "--unstable-at", "2.5"]].concat();
+    let (said, _) = predict(&place, "six.edges", &options, 0);
+    assert!(said.contains("The states end at epsilon = 2.5, down to which"), "{said}");
+    let summary = place.json("results/six/summary.json");
+    let eigenvalues = summary["eigenvalues"].as_array().unwrap();
+    assert_eq!(eigenvalues.len(), 3);
+    let last = summary["cascade"].as_array().unwrap().last().unwrap().clone();
+    assert!((last["epsilon"][0].as_f64().unwrap() - 2.5).abs() < 1e-9, "{last}");
+    assert_eq!(last["unstable_modes"], serde_json::json!([2, 3]));
+}
+
+#[test]
+fn modes_unstable_at_a_coupling_need_a_stable_set_without_end() {
+    let place = with_network();
+    let rossler = ["--oscillator", "rossler", "--coupling", "x:x", "--quick", "--unstable-at", "1"];
+    let (_, said) = predict(&place, "six.edges", &rossler, 2);
+    assert!(said.contains("stable set ends") && said.contains("set `spectrum.modes`"), "{said}");
+}
+
+#[test]
 fn options_that_make_no_sense_are_answered_with_what_there_is() {
     let place = with_network();
     let refused = |network: &str, options: &[&str], expected: &[&str]| {

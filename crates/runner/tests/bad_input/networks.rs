@@ -96,9 +96,12 @@ fn modes_that_a_network_does_not_have_are_refused() {
         check_refused(&tiny().and(&spectrum), &["`spectrum.modes`", expected]);
     };
     modes("0", "is 0, but must be 1 or more");
-    modes("-1", "must be \"all\" or a whole number");
-    modes("2.5", "must be \"all\" or a whole number");
-    modes("\"some\"", "is the text \"some\", but must be \"all\" or a whole number");
+    modes("-1", "must be \"all\", a whole number or { unstable_at = … }");
+    modes("2.5", "must be \"all\", a whole number or { unstable_at = … }");
+    modes(
+        "\"some\"",
+        "is the text \"some\", but must be \"all\", a whole number or { unstable_at = … }",
+    );
     check_refused(
         &tiny().and("[figure]\nmark_modes = [7]"),
         &["`figure.mark_modes` has mode 7, but the modes computed are 1 to 6"],
