@@ -5,9 +5,11 @@
 //! - `machine.json`: processor, instruction sets, compilers, load, commit
 //! - `all.csv`: every benchmark with its mean time and standard error
 //! - `simulation.csv`: node-steps a second of eigensync and, with `--peers`, of the peers
+//! - `growth.csv`: exponents of t ∝ nᵖ where an operation was timed from small to large
 //! - `peers.csv`, `notes.txt`: errors of the peers, and what could not be measured and why
 
 mod criterion;
+mod growth;
 mod machine;
 mod simulation;
 mod table;
@@ -85,10 +87,14 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     }
     write(&unfinished.join("all.csv"), &criterion::to_csv(&measured))?;
     write(&unfinished.join("simulation.csv"), &simulation::to_csv(&rows))?;
+    if let Some(growth) = growth::to_csv(&measured) {
+        write(&unfinished.join("growth.csv"), &growth)?;
+    }
     let machine_json = serde_json::to_string_pretty(&machine).expect("text and numbers");
     write(&unfinished.join("machine.json"), &format!("{machine_json}\n"))?;
     let place = keep(&unfinished, runs, &machine.folder_name())?;
     println!("{}", table::markdown(&rows));
+    println!("{}", growth::markdown(&measured).unwrap_or_default());
     println!("{}", place.display());
     Ok(0)
 }

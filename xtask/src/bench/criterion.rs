@@ -134,6 +134,23 @@ pub fn to_csv(benchmarks: &[Benchmark]) -> String {
     csv
 }
 
+/// What [`to_csv`] wrote, without throughputs.
+pub fn from_csv(text: &str) -> Result<Vec<Benchmark>, String> {
+    let benchmark = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let seconds = |field: usize| fields.get(field)?.parse().ok();
+        Some(Benchmark {
+            id: fields[0].to_owned(),
+            mean: seconds(1)?,
+            standard_error: seconds(2)?,
+            best: seconds(3)?,
+            throughput: None,
+        })
+    };
+    let read = |line| benchmark(line).ok_or_else(|| format!("all.csv: no benchmark: {line}"));
+    text.lines().skip(1).map(read).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -160,7 +177,8 @@ mod tests {
         let identity = r#"{"full_id":"msf/hindmarsh_rose/121","throughput":null}"#;
         let benchmark = parse(identity, ESTIMATES, SAMPLES).unwrap();
         assert!(benchmark.best_rate().is_err());
-        let csv = to_csv(&[benchmark]);
+        let csv = to_csv(std::slice::from_ref(&benchmark));
+        assert_eq!(from_csv(&csv).unwrap(), [benchmark]);
         assert_eq!(
             csv.lines().nth(1),
             Some("msf/hindmarsh_rose/121,2.000000e-6,1.0e-8,1.500000e-6,,")

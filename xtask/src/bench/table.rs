@@ -1,33 +1,53 @@
-//! The tables of docs/performance.md, made from the `simulation.csv` of a run, with its notes.
+//! The tables of docs/performance.md, made from `simulation.csv` and `all.csv` of a run, with its
+//! notes: each that the run has something for.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::simulation::{Row, from_csv};
-use super::{read, read_if_there, write};
+use super::{criterion, growth, read, read_if_there, write};
 use crate::root;
 
-const BEGIN: &str = "<!-- Made by `cargo xtask bench --table`; changes here are lost. -->";
-const END: &str = "<!-- End of what `cargo xtask bench --table` makes. -->";
+/// Where the table of simulations stands on the page.
+const SIMULATION: [&str; 2] = [
+    "<!-- Made by `cargo xtask bench --table`; changes here are lost. -->",
+    "<!-- End of what `cargo xtask bench --table` makes. -->",
+];
+/// Where the table of growth stands.
+const GROWTH: [&str; 2] = [
+    "<!-- Growth, made by `cargo xtask bench --table`; changes here are lost. -->",
+    "<!-- End of the growth that `cargo xtask bench --table` makes. -->",
+];
 
-/// Replaces the table of docs/performance.md by that of a run, the newest unless one is given.
+/// Replaces the tables of docs/performance.md by those of a run, the newest unless one is given.
 pub fn update(runs: &Path, run: Option<&Path>) -> Result<u8, String> {
     let run = match run {
         Some(run) => run.to_owned(),
         None => newest(runs)?,
     };
     let rows = from_csv(&read(&run.join("simulation.csv"))?)?;
-    let page = root().join("docs/performance.md");
-    let name = run.file_name().unwrap_or_default().to_string_lossy();
-    let mut table = format!("Run [{name}](../benches/runs/{name}/).\n\n{}", markdown(&rows));
+    let benchmarks = criterion::from_csv(&read(&run.join("all.csv"))?)?;
     let notes = read_if_there(&run.join("notes.txt"))?.unwrap_or_default();
-    if !notes.is_empty() {
-        table.push_str("\nNotes of the run:\n\n");
+    let path = root().join("docs/performance.md");
+    let name = run.file_name().unwrap_or_default().to_string_lossy();
+    let with_notes = |table: String| {
+        let mut text = format!("Run [{name}](../benches/runs/{name}/).\n\n{table}");
+        if !notes.is_empty() {
+            text.push_str("\nNotes of the run:\n\n");
+        }
+        text.extend(notes.lines().map(|note| format!("- {note}\n")));
+        text
+    };
+    let mut page = read(&path)?;
+    if !rows.is_empty() {
+        page = replace(&page, SIMULATION, &with_notes(markdown(&rows)))?;
     }
-    table.extend(notes.lines().map(|note| format!("- {note}\n")));
-    write(&page, &replace(&read(&page)?, &table)?)?;
-    println!("{}: the table of {}", page.display(), run.display());
+    if let Some(table) = growth::markdown(&benchmarks) {
+        page = replace(&page, GROWTH, &with_notes(table))?;
+    }
+    write(&path, &page)?;
+    println!("{}: the tables of {}", path.display(), run.display());
     Ok(0)
 }
 
@@ -51,12 +71,12 @@ fn newest(runs: &Path) -> Result<PathBuf, String> {
 }
 
 /// The page with what stands between the two marks replaced.
-fn replace(page: &str, table: &str) -> Result<String, String> {
+fn replace(page: &str, [begin, end]: [&str; 2], table: &str) -> Result<String, String> {
     let cut =
-        page.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
+        page.split_once(begin).and_then(|(before, rest)| Some((before, rest.split_once(end)?.1)));
     let (before, after) =
-        cut.ok_or_else(|| format!("docs/performance.md lacks the marks\n    {BEGIN}\n    {END}"))?;
-    Ok(format!("{before}{BEGIN}\n\n{table}\n{END}{after}"))
+        cut.ok_or_else(|| format!("docs/performance.md lacks the marks\n    {begin}\n    {end}"))?;
+    Ok(format!("{before}{begin}\n\n{table}\n{end}{after}"))
 }
 
 /// Two tables: all methods of a fixed step, then all that choose their own.
@@ -167,10 +187,11 @@ mod tests {
 
     #[test]
     fn only_what_stands_between_the_marks_is_replaced() {
-        let page = format!("before\n{BEGIN}\nold\n{END}\nafter\n");
-        let replaced = replace(&page, "new\n").unwrap();
-        assert_eq!(replaced, format!("before\n{BEGIN}\n\nnew\n\n{END}\nafter\n"));
-        assert_eq!(replace(&replaced, "new\n").unwrap(), replaced);
-        assert!(replace("no marks", "new\n").is_err());
+        let [begin, end] = GROWTH;
+        let page = format!("before\n{begin}\nold\n{end}\nafter\n");
+        let replaced = replace(&page, GROWTH, "new\n").unwrap();
+        assert_eq!(replaced, format!("before\n{begin}\n\nnew\n\n{end}\nafter\n"));
+        assert_eq!(replace(&replaced, GROWTH, "new\n").unwrap(), replaced);
+        assert!(replace(&replaced, SIMULATION, "new\n").is_err());
     }
 }
