@@ -64,9 +64,7 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Work
         let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), in_lanes);
         let mut escaped_at = [None; L];
         for sample in 1..=schedule.transient_samples() + schedule.samples() {
-            for _ in 0..schedule.stride {
-                network.step(schedule.step);
-            }
+            network.advance(schedule.stride, schedule.step);
             for (escaped_at, bounded) in escaped_at.iter_mut().zip(network.bounded()) {
                 if escaped_at.is_none() && !bounded {
                     *escaped_at = Some(schedule.time_of(sample));

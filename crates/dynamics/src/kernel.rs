@@ -47,6 +47,9 @@ pub(crate) struct Network<O, const D: usize, const L: usize, const R: usize> {
     points: [[Aligned; D]; POINTS],
 }
 
+/// The points run by run, `[point][component][run]`.
+type Points<'a, const D: usize> = [[&'a mut [[f64; WIDTH]]; D]; POINTS];
+
 /// The right-hand side of nodes whose inputs are known.
 struct Equations<O> {
     oscillator: O,
@@ -83,27 +86,34 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Network<O
         network
     }
 
-    /// Advances every node by one step h.
+    /// Advances every node by some steps h.
     #[inline(always)]
-    pub(crate) fn step(&mut self, h: f64) {
-        self.stage::<0>(h);
-        self.stage::<1>(h);
-        self.stage::<2>(h);
-        self.stage::<3>(h);
+    pub(crate) fn advance(&mut self, n_steps: u32, h: f64) {
+        let Self { equations, rows, points } = self;
+        let mut points = points.each_mut().map(|point| point.each_mut().map(runs_mut));
+        for _ in 0..n_steps {
+            Self::stage::<0>(h, equations, rows, &mut points);
+            Self::stage::<1>(h, equations, rows, &mut points);
+            Self::stage::<2>(h, equations, rows, &mut points);
+            Self::stage::<3>(h, equations, rows, &mut points);
+        }
     }
 
     /// Evaluates the equations at one of the points, and puts the next one; from the last, x(t + h).
     #[inline(always)]
-    fn stage<const POINT: usize>(&mut self, h: f64) {
-        let Self { equations, rows, points } = self;
-        let mut points = points.each_mut().map(|point| point.each_mut().map(runs_mut));
+    fn stage<const POINT: usize>(
+        h: f64,
+        equations: &Equations<O>,
+        rows: &RowSums<L, R>,
+        points: &mut Points<'_, D>,
+    ) {
         let from = equations.coupling.from;
         rows.share(points[POINT][from].as_flattened_mut().as_chunks_mut().0);
         for run in 0..rows.n_runs() {
             let inputs = rows.inputs(run, points[POINT][from].as_flattened().as_chunks().0);
             for part in 0..WIDTH / VECTOR {
                 let place = (run, part);
-                equations.stage::<D, POINT>(h, &mut points, place, vector(&inputs, part));
+                equations.stage::<D, POINT>(h, points, place, vector(&inputs, part));
             }
         }
     }
@@ -146,7 +156,7 @@ impl<O> Equations<O> {
     fn stage<const D: usize, const POINT: usize>(
         &self,
         h: f64,
-        points: &mut [[&mut [[f64; WIDTH]]; D]; POINTS],
+        points: &mut Points<'_, D>,
         place: (usize, usize),
         input: Lanes<VECTOR>,
     ) where
