@@ -6,6 +6,8 @@
 //! twice (Giraud et al., Numer. Math. 101, 87 (2005)); within the block by the Gram matrix
 //! (Stathopoulos & Wu, SIAM J. Sci. Comput. 23, 2165 (2002), SVQB).
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
@@ -68,6 +70,11 @@ impl Block {
         &mut self.data
     }
 
+    /// The entries of a node, one a vector.
+    pub fn node(&self, i: usize) -> &[f64] {
+        &self.data[i * self.width..(i + 1) * self.width]
+    }
+
     /// Multiplies the entries of every node by its own factor.
     pub fn scale_nodes(&mut self, factor: impl Fn(usize) -> f64 + Sync) {
         let width = self.width;
@@ -117,6 +124,13 @@ impl Block {
         (0..self.width).map(|v| gram[(v, v)].sqrt()).collect()
     }
 
+    /// Y C.
+    pub fn combine(&self, c: MatRef<'_, f64>) -> Self {
+        let mut image = self.clone();
+        image.transform(c);
+        image
+    }
+
     /// Y ← Y C, which may have fewer vectors.
     fn transform(&mut self, c: MatRef<'_, f64>) {
         assert!(c.ncols() > 0 && c.nrows() == self.width, "{} × {}", c.nrows(), c.ncols());
@@ -141,6 +155,22 @@ impl Block {
         let factor = |v, k: usize| if kept[k] == v { 1.0 / norms[v] } else { 0.0 };
         self.transform(Mat::from_fn(self.width, kept.len(), factor).as_ref());
         true
+    }
+
+    /// An orthonormal basis of the span of its vectors, and how independent they were; none when all
+    /// are of norm zero.
+    pub fn span(mut self) -> Result<Option<(Self, f64)>, SpectraError> {
+        if !self.normalise_each(0.0) {
+            return Ok(None);
+        }
+        Ok(self.orthonormalise()?.map(|least| (self, least)))
+    }
+
+    /// These vectors and others.
+    pub fn beside(&self, others: &Self) -> Self {
+        assert_eq!(self.n_rows(), others.n_rows(), "lengths of vectors side by side");
+        let rows = (0..self.n_rows()).flat_map(|i| self.node(i).iter().chain(others.node(i)));
+        Self::from_nodes(self.width + others.width, rows.copied().collect())
     }
 
     /// Makes unit vectors orthonormal, and says how independent they were; none when they were not.
@@ -215,15 +245,16 @@ impl Basis {
 
     /// Vᵀ Y.
     pub fn overlaps(&self, block: &Block) -> Mat<f64> {
-        self.overlaps_of_first(self.n_vectors, block)
+        self.overlaps_in(0..self.n_vectors, block)
     }
 
-    /// Vᵀ Y for the first vectors of the basis.
-    fn overlaps_of_first(&self, n_vectors: usize, block: &Block) -> Mat<f64> {
+    /// Vᵀ Y for some vectors of the basis.
+    pub fn overlaps_in(&self, range: Range<usize>, block: &Block) -> Mat<f64> {
+        let n_vectors = range.len();
         let parts = block.data.par_chunks(ROWS * block.width);
         let partial = |(chunk, part): (&Vec<f64>, &[f64])| {
             let n_rows = part.len() / block.width;
-            let chunk = &chunk[..n_rows * n_vectors];
+            let chunk = &chunk[n_rows * range.start..n_rows * range.end];
             let v = MatRef::from_column_major_slice(chunk, n_rows, n_vectors);
             product(v.transpose(), MatRef::from_row_major_slice(part, n_rows, block.width))
         };
@@ -234,8 +265,13 @@ impl Basis {
     /// V C as a block.
     pub fn combine(&self, c: MatRef<'_, f64>) -> Block {
         let mut block = Block::zeros(self.n_rows, c.ncols());
-        self.accumulate(&mut block, c, Accum::Replace, 1.0);
+        self.accumulate(0..c.nrows(), &mut block, c, Accum::Replace, 1.0);
         block
+    }
+
+    /// Y ← Y − V C for some vectors of the basis.
+    pub fn subtract(&self, range: Range<usize>, block: &mut Block, c: MatRef<'_, f64>) {
+        self.accumulate(range, block, c, Accum::Add, -1.0);
     }
 
     /// Y ← Y − V (Vᵀ Y).
@@ -245,17 +281,24 @@ impl Basis {
 
     /// Y ← Y − V (Vᵀ Y) for the first vectors of the basis.
     pub fn project_out_first(&self, n_vectors: usize, block: &mut Block) {
-        let overlaps = self.overlaps_of_first(n_vectors, block);
-        self.accumulate(block, overlaps.as_ref(), Accum::Add, -1.0);
+        let overlaps = self.overlaps_in(0..n_vectors, block);
+        self.subtract(0..n_vectors, block, overlaps.as_ref());
     }
 
-    /// Y ← Y + factor · V C, or the second term alone, with as many vectors as C has rows.
-    fn accumulate(&self, block: &mut Block, c: MatRef<'_, f64>, accum: Accum, factor: f64) {
+    /// Y ← Y + factor · V C, or the second term alone, for some vectors of the basis.
+    fn accumulate(
+        &self,
+        range: Range<usize>,
+        block: &mut Block,
+        c: MatRef<'_, f64>,
+        accum: Accum,
+        factor: f64,
+    ) {
         let width = block.width;
         let parts = block.data.par_chunks_mut(ROWS * width);
         self.chunks.par_iter().zip(parts).for_each(|(chunk, part)| {
             let n_rows = part.len() / width;
-            let chunk = &chunk[..n_rows * c.nrows()];
+            let chunk = &chunk[n_rows * range.start..n_rows * range.end];
             let v = MatRef::from_column_major_slice(chunk, n_rows, c.nrows());
             let part = MatMut::from_row_major_slice_mut(part, n_rows, width);
             matmul(part, accum, v, c, factor, Par::Seq);
@@ -308,6 +351,36 @@ impl Basis {
             }
         }
         Ok(None)
+    }
+
+    /// The same, vector by vector: what is left out is noise, however dependent the vectors are.
+    pub fn orthonormalise_one_by_one(
+        &mut self,
+        block: &Block,
+    ) -> Result<Option<Block>, SpectraError> {
+        let n_vectors = self.n_vectors;
+        for v in 0..block.width {
+            let unit = |w, _| if w == v { 1.0 } else { 0.0 };
+            let vector = block.combine(Mat::from_fn(block.width, 1, unit).as_ref());
+            if let Some(vector) = self.orthonormalise(vector)? {
+                self.append(&vector);
+            }
+        }
+        let width = self.n_vectors - n_vectors;
+        let unit = |k, v: usize| if k == n_vectors + v { 1.0 } else { 0.0 };
+        let found =
+            (width > 0).then(|| self.combine(Mat::from_fn(self.n_vectors, width, unit).as_ref()));
+        self.truncate(n_vectors);
+        Ok(found)
+    }
+
+    /// Keeps the first vectors.
+    fn truncate(&mut self, n_vectors: usize) {
+        let rows: Vec<usize> = self.chunk_rows().collect();
+        for (chunk, n_rows) in self.chunks.iter_mut().zip(rows) {
+            chunk.truncate(n_vectors * n_rows);
+        }
+        self.n_vectors = n_vectors;
     }
 
     fn chunk_rows(&self) -> impl Iterator<Item = usize> + use<> {

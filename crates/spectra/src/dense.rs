@@ -34,6 +34,9 @@ pub(crate) fn symmetric_eigen(
     n_rows: usize,
     entry: impl Fn(usize, usize) -> f64,
 ) -> Result<Eigenpairs, SpectraError> {
+    if n_rows == 0 {
+        return Ok(Eigenpairs::default());
+    }
     let matrix = Mat::from_fn(n_rows, n_rows, |i, j| if i >= j { entry(i, j) } else { 0.0 });
     let mut ascending = Diag::<f64>::zeros(n_rows);
     let mut vectors = Mat::<f64>::zeros(n_rows, n_rows);

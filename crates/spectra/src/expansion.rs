@@ -1,8 +1,7 @@
-//! How the block method amplifies what is wanted: a Chebyshev filter, or (μ − S)⁻¹.
+//! How the block method amplifies what is wanted: by a Chebyshev filter of a degree that fits.
 
 use crate::block::Block;
 use crate::chebyshev::{Filter, Interval};
-use crate::factorisation::Inverse;
 
 /// The highest degree of a filter.
 const HIGHEST_DEGREE: usize = 24;
@@ -10,18 +9,13 @@ const HIGHEST_DEGREE: usize = 24;
 /// rounding leaves of modes found then stays small.
 const LARGEST_GAIN: f64 = 1e10;
 
-/// An operator whose largest eigenvalues belong to the wanted eigenvectors.
-pub(crate) enum Amplifier<'a> {
-    /// T_d(t(S)).
-    Chebyshev {
-        filter: &'a Filter<'a>,
-        /// At most the smallest eigenvalue of S.
-        low: f64,
-        /// Upper end of the unwanted part while little is known.
-        first_guess: f64,
-    },
-    /// (μ − S)⁻¹.
-    ShiftInvert(Inverse<'a, 'a>),
+/// T_d(t(S)), whose largest eigenvalues belong to the wanted eigenvectors.
+pub(crate) struct Amplifier<'a> {
+    pub filter: &'a Filter<'a>,
+    /// At most the smallest eigenvalue of S.
+    pub low: f64,
+    /// Upper end of the unwanted part while little is known.
+    pub first_guess: f64,
 }
 
 /// What is known of the spectrum when vectors are amplified.
@@ -37,36 +31,23 @@ pub(crate) struct Situation {
 impl Amplifier<'_> {
     /// Products that each vector costs.
     pub fn products(&self, situation: &Situation) -> usize {
-        match self {
-            Self::Chebyshev { low, first_guess, .. } => {
-                degree(situation, interval(situation, *low, *first_guess))
-            }
-            Self::ShiftInvert(_) => 1,
-        }
+        degree(situation, self.interval(situation))
     }
 
     /// Amplifies the vectors of a block.
-    pub fn apply(&self, mut block: Block, situation: &Situation) -> Block {
-        match self {
-            Self::Chebyshev { filter, low, first_guess } => {
-                let unwanted = interval(situation, *low, *first_guess);
-                filter.apply(block, degree(situation, unwanted), unwanted)
-            }
-            Self::ShiftInvert(inverse) => {
-                inverse.apply(&mut block);
-                block
-            }
-        }
+    pub fn apply(&self, block: Block, situation: &Situation) -> Block {
+        let unwanted = self.interval(situation);
+        self.filter.apply(block, degree(situation, unwanted), unwanted)
     }
-}
 
-fn interval(situation: &Situation, low: f64, first_guess: f64) -> Interval {
-    let high = situation.guard.unwrap_or(first_guess);
-    let high = situation.cutoff.map_or(high, |cutoff| high.min(cutoff));
-    // Where all that is left lies at the lower end, an interval of no width would amplify nothing
-    // but rounding.
-    let narrowest = 0.01 * (situation.top - low);
-    Interval { low: low.min(high - narrowest), high }
+    fn interval(&self, situation: &Situation) -> Interval {
+        let high = situation.guard.unwrap_or(self.first_guess);
+        let high = situation.cutoff.map_or(high, |cutoff| high.min(cutoff));
+        // Where all that is left lies at the lower end, an interval of no width would amplify nothing
+        // but rounding.
+        let narrowest = 0.01 * (situation.top - self.low);
+        Interval { low: self.low.min(high - narrowest), high }
+    }
 }
 
 fn degree(situation: &Situation, unwanted: Interval) -> usize {

@@ -1,4 +1,4 @@
-//! Sparse factorisations of μ − S and S − c·1, where their fill is affordable.
+//! Sparse factorisations S − c·1 = L D Lᵀ, where their fill is affordable.
 //!
 //! The order of elimination is approximate minimum degree; fill and operations are those of the
 //! symbolic factorisation, known before any number is computed. Even that costs seconds on networks
@@ -9,16 +9,13 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLdltRef, SupernodeRef};
 use faer::sparse::linalg::cholesky::{
-    LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+    SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Par, Side};
 use graph::SparseMatrix;
 
-use crate::block::Block;
 use crate::separator;
 
 /// Most nonzeros of a factor: 800 MB, twice while a count is verified.
@@ -59,39 +56,14 @@ impl<'a> Symbolic<'a> {
         affordable.then_some(Self { matrix, starts, cholesky, operations, levels: shape.levels })
     }
 
-    /// Number of nodes N.
-    pub fn n_rows(&self) -> usize {
-        self.matrix.rows()
-    }
-
     /// Nonzeros of the factor.
     pub fn nonzeros(&self) -> usize {
         self.cholesky.len_val()
     }
 
-    /// μ − S = L Lᵀ; none when a pivot is not positive.
-    pub fn positive(&self, shift: f64) -> Option<Inverse<'_, 'a>> {
-        let values = self.shifted(-1.0, shift);
-        let mut factor = vec![0.0; self.cholesky.len_val()];
-        let scratch =
-            self.cholesky.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        self.cholesky
-            .factorize_numeric_llt(
-                &mut factor,
-                SparseColMatRef::new(pattern(self.matrix, &self.starts), &values),
-                Side::Upper,
-                LltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut MemBuffer::new(scratch)),
-                Default::default(),
-            )
-            .ok()?;
-        Some(Inverse { symbolic: self, factor })
-    }
-
     /// S − c·1 = L D Lᵀ; none when a pivot is zero.
-    pub fn indefinite(&self, cutoff: f64) -> Option<Indefinite<'_, 'a>> {
-        let values = self.shifted(1.0, -cutoff);
+    pub fn factors(&self, c: f64) -> Option<Factors<'_>> {
+        let values = self.shifted(-c);
         let mut factor = vec![0.0; self.cholesky.len_val()];
         let scratch =
             self.cholesky.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
@@ -106,12 +78,12 @@ impl<'a> Symbolic<'a> {
                 Default::default(),
             )
             .ok()?;
-        Some(Indefinite { symbolic: self, factor })
+        Some(Factors { cholesky: &self.cholesky, values: factor })
     }
 
-    /// The stored values of sign · S + shift · 1.
-    fn shifted(&self, sign: f64, shift: f64) -> Vec<f64> {
-        let mut values: Vec<f64> = self.matrix.data().iter().map(|s_ij| sign * s_ij).collect();
+    /// The stored values of S + shift · 1.
+    fn shifted(&self, shift: f64) -> Vec<f64> {
+        let mut values = self.matrix.data().to_vec();
         let columns = self.matrix.indices();
         for (i, start) in self.starts.iter().take(self.matrix.rows()).enumerate() {
             let row = *start as usize..self.starts[i + 1] as usize;
@@ -122,85 +94,88 @@ impl<'a> Symbolic<'a> {
     }
 }
 
-/// (μ − S)⁻¹ by its factor.
-pub(crate) struct Inverse<'s, 'a> {
-    symbolic: &'s Symbolic<'a>,
-    factor: Vec<f64>,
+/// L and D of S − c·1, their rows and columns in the order of elimination.
+pub(crate) struct Factors<'s> {
+    cholesky: &'s SymbolicCholesky<u32>,
+    values: Vec<f64>,
 }
 
-impl Inverse<'_, '_> {
-    /// Overwrites a block X with (μ − S)⁻¹ X.
-    pub fn apply(&self, block: &mut Block) {
-        let cholesky = &self.symbolic.cholesky;
-        let (n_rows, width) = (block.n_rows(), block.width());
-        let mut columns = vec![0.0; n_rows * width];
-        for (i, row) in block.data().chunks(width).enumerate() {
-            for (v, &entry) in row.iter().enumerate() {
-                columns[v * n_rows + i] = entry;
-            }
-        }
-        let scratch = cholesky.solve_in_place_scratch::<f64>(width, Par::Seq);
-        LltRef::new(cholesky, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(&mut columns, n_rows, width),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-        );
-        for (i, row) in block.data_mut().chunks_mut(width).enumerate() {
-            for (v, entry) in row.iter_mut().enumerate() {
-                *entry = columns[v * n_rows + i];
-            }
-        }
+/// Neighbouring columns of L that share their rows: a unit lower triangle, with the pivots on its
+/// diagonal, above a rectangle.
+pub(crate) struct Panel<'s> {
+    /// Its first column.
+    pub start: usize,
+    /// Its number of columns.
+    pub width: usize,
+    /// The rows of the rectangle.
+    pub below: &'s [u32],
+    /// Triangle and rectangle, column by column.
+    pub values: &'s [f64],
+}
+
+impl<'s> Panel<'s> {
+    /// Rows of triangle and rectangle together.
+    pub fn n_rows(&self) -> usize {
+        self.width + self.below.len()
+    }
+
+    /// The k-th column, from its pivot down.
+    pub fn column(&self, k: usize) -> &'s [f64] {
+        &self.values[k * self.n_rows() + k..(k + 1) * self.n_rows()]
+    }
+
+    /// The row of S − c·1, in the order of elimination, that is the r-th of the panel.
+    pub fn row(&self, r: usize) -> usize {
+        r.checked_sub(self.width).map_or(self.start + r, |beyond| self.below[beyond] as usize)
     }
 }
 
-/// L and D of S − c·1.
-pub(crate) struct Indefinite<'s, 'a> {
-    symbolic: &'s Symbolic<'a>,
-    factor: Vec<f64>,
-}
+impl Factors<'_> {
+    /// Number of rows N.
+    pub fn n_rows(&self) -> usize {
+        self.cholesky.nrows()
+    }
 
-impl Indefinite<'_, '_> {
-    /// Calls with each column of the factor: its pivot d_j, and the entries l_ij below it with their
-    /// rows i in the order of elimination.
-    pub fn columns(
-        &self,
-        mut call: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
-    ) {
-        let cholesky = &self.symbolic.cholesky;
-        match cholesky.raw() {
+    /// Which row of S is eliminated first, second, …; none where their own order is that of
+    /// elimination.
+    pub fn order(&self) -> Option<&[u32]> {
+        self.cholesky.perm().map(|permutation| permutation.arrays().0)
+    }
+
+    /// Number of panels.
+    pub fn n_panels(&self) -> usize {
+        match self.cholesky.raw() {
+            SymbolicCholeskyRaw::Simplicial(pattern) => pattern.ncols(),
+            SymbolicCholeskyRaw::Supernodal(pattern) => pattern.n_supernodes(),
+        }
+    }
+
+    /// A panel, in the order of elimination.
+    pub fn panel(&self, p: usize) -> Panel<'_> {
+        match self.cholesky.raw() {
             SymbolicCholeskyRaw::Simplicial(pattern) => {
-                for (j, range) in pattern.col_ptr().windows(2).enumerate() {
-                    let range = range[0] as usize..range[1] as usize;
-                    let rows = pattern.row_idx()[range.clone()].iter().map(|&i| i as usize);
-                    let mut entries = rows.zip(self.factor[range].iter().copied());
-                    let (first, pivot) = entries.next().expect("a column holds its pivot");
-                    assert_eq!(first, j, "columns begin with their pivots");
-                    call(j, pivot, &mut entries);
-                }
+                let range = pattern.col_ptr()[p] as usize..pattern.col_ptr()[p + 1] as usize;
+                let (first, below) = pattern.row_idx()[range.clone()].split_at(1);
+                debug_assert_eq!(first[0] as usize, p, "columns begin with their pivots");
+                Panel { start: p, width: 1, below, values: &self.values[range] }
             }
             SymbolicCholeskyRaw::Supernodal(pattern) => {
-                let factor = SupernodalLdltRef::new(pattern, &self.factor);
-                for s in 0..pattern.n_supernodes() {
-                    supernode_columns(factor.supernode(s), &mut call);
+                let node = pattern.supernode(p);
+                let starts = pattern.col_ptr_for_val();
+                let width = pattern.supernode_end()[p] - pattern.supernode_begin()[p];
+                Panel {
+                    start: node.start(),
+                    width: width as usize,
+                    below: node.pattern(),
+                    values: &self.values[starts[p] as usize..starts[p + 1] as usize],
                 }
             }
         }
     }
-}
 
-/// The columns of a supernode: a unit lower triangle with the pivots on its diagonal, above the rows
-/// that its columns share.
-fn supernode_columns(
-    node: SupernodeRef<'_, u32, f64>,
-    call: &mut impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
-) {
-    let (values, start, below) = (node.val(), node.start(), node.pattern());
-    let row =
-        |k: usize| k.checked_sub(values.ncols()).map_or(start + k, |beyond| below[beyond] as usize);
-    for k in 0..values.ncols() {
-        let mut entries = (k + 1..values.nrows()).map(|i| (row(i), values[(i, k)]));
-        call(start + k, values[(k, k)], &mut entries);
+    /// All panels, in the order of elimination.
+    pub fn panels(&self) -> impl DoubleEndedIterator<Item = Panel<'_>> {
+        (0..self.n_panels()).map(|p| self.panel(p))
     }
 }
 

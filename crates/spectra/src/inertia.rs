@@ -7,7 +7,7 @@
 //! compute that bound, so a count says for certain how many eigenvalues lie above c, give or take
 //! those within ‖E‖ of it (Weyl).
 
-use crate::factorisation::{Indefinite, Symbolic};
+use crate::factorisation::{Factors, Panel, Symbolic};
 
 /// The number of eigenvalues above a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,27 +19,30 @@ pub(crate) struct Count {
 
 /// Counts the eigenvalues above c; none when a pivot is zero.
 pub(crate) fn count_above(symbolic: &Symbolic<'_>, c: f64) -> Option<Count> {
-    let factors = symbolic.indefinite(c)?;
-    let mut above = 0;
-    factors.columns(|_, pivot, _| above += usize::from(pivot > 0.0));
-    let uncertainty = rounding(&factors, symbolic.n_rows());
+    let factors = symbolic.factors(c)?;
+    let positive =
+        |panel: &Panel<'_>| (0..panel.width).filter(|&k| panel.column(k)[0] > 0.0).count();
+    let above = factors.panels().map(|panel| positive(&panel)).sum();
+    let uncertainty = rounding(&factors);
     uncertainty.is_finite().then_some(Count { above, uncertainty })
 }
 
 /// γ_k ‖ |L| |D| |Lᵀ| ‖_∞, a bound on ‖E‖ because the matrix is symmetric.
-fn rounding(factors: &Indefinite<'_, '_>, n_rows: usize) -> f64 {
+fn rounding(factors: &Factors<'_>) -> f64 {
     // |D| |Lᵀ| 1: each component needs one column of L. Then |L| times that.
-    let mut image = vec![0.0; n_rows];
-    let mut lengths = vec![1usize; n_rows];
-    factors.columns(|j, pivot, below| {
-        let (rows, values): (Vec<usize>, Vec<f64>) = below.unzip();
-        let weight = pivot.abs() * (1.0 + values.iter().map(|l_ij| l_ij.abs()).sum::<f64>());
-        image[j] += weight;
-        for (i, l_ij) in rows.into_iter().zip(values) {
-            image[i] += l_ij.abs() * weight;
-            lengths[i] += 1;
+    let mut image = vec![0.0; factors.n_rows()];
+    let mut lengths = vec![1usize; factors.n_rows()];
+    for panel in factors.panels() {
+        for k in 0..panel.width {
+            let (pivot, below) = panel.column(k).split_first().expect("a column holds its pivot");
+            let weight = pivot.abs() * (1.0 + below.iter().map(|l_ij| l_ij.abs()).sum::<f64>());
+            image[panel.row(k)] += weight;
+            for (r, l_ij) in (k + 1..).zip(below) {
+                image[panel.row(r)] += l_ij.abs() * weight;
+                lengths[panel.row(r)] += 1;
+            }
         }
-    });
+    }
     let longest = lengths.into_iter().max().unwrap_or(1) as f64;
     let unit = 0.5 * f64::EPSILON;
     // The subtraction of c rounds the diagonal once more; two more terms cover it and the sum itself.

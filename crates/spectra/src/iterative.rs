@@ -10,15 +10,16 @@ use graph::CouplingMatrix;
 
 use crate::chebyshev::Filter;
 use crate::completeness::{self, Found};
-use crate::davidson::Search;
 use crate::expansion::Amplifier;
 use crate::factorisation::{DENSE_SPEED, MOST_NONZEROS, MOST_OPERATIONS, Symbolic};
+use crate::inverse::Inverse;
 use crate::lanczos::Look;
 use crate::progress::Progress;
 use crate::random::Random;
 use crate::request::{ARPACK_NODES, Plan};
 use crate::verification::Verifier;
 use crate::{Solver, SolverChoice, SpectraError, Verification};
+use crate::{davidson, krylov};
 
 /// Nonzeros of a factor for each of the matrix beyond which no factorisation is tried unless it is
 /// asked for.
@@ -40,41 +41,36 @@ pub(crate) fn leading(
     plan: &Plan,
     progress: Progress<'_>,
 ) -> Result<(Found, Solver, Verification), SpectraError> {
-    let mut random = Random::new(plan.seed);
-    let look = Look::new(w, plan.scale, &mut random)?;
     let most_fill = match plan.choice {
         SolverChoice::ShiftInvert => f64::INFINITY,
         _ => CHEAP_FILL * w.symmetric().nnz() as f64,
     };
     let symbolic = Symbolic::within_budget(w.symmetric(), most_fill);
     let filter = Filter::new(w);
-    let verifier = Verifier {
-        w,
-        symbolic: symbolic.as_ref(),
-        filter: &filter,
-        low: look.low,
-        grouping: plan.grouping,
-    };
+    // By Gershgorin, until a look finds more.
+    let low = -2.0 * plan.scale;
+    let grouping = plan.grouping;
+    let mut verifier = Verifier { w, symbolic: symbolic.as_ref(), filter: &filter, low, grouping };
     let solver = choose(w, plan, symbolic.as_ref())?;
+    let mut random = Random::new(plan.seed);
+    if let (Solver::ShiftInvert, Some(symbolic)) = (solver, &symbolic) {
+        // Nothing smaller than the grouping is told apart from 0.
+        let shift = grouping;
+        let inverse =
+            Inverse::new(symbolic, shift).ok_or(SpectraError::NotPositiveDefinite { shift })?;
+        let search = krylov::Search::new(w, plan, &inverse, random, progress)?;
+        let (found, verification) = search.run(&verifier)?;
+        return Ok((found, solver, verification));
+    }
+    let look = Look::new(w, plan.scale, &mut random)?;
+    verifier.low = look.low;
     if solver == Solver::Arpack {
         let (found, verification) = completeness::leading(w, plan, &verifier, random)?;
         return Ok((found, solver, verification));
     }
-    let amplifier = match &symbolic {
-        Some(symbolic) if solver == Solver::ShiftInvert => {
-            // Nothing smaller than the grouping is told apart from 0.
-            let shift = plan.grouping;
-            let inverse =
-                symbolic.positive(shift).ok_or(SpectraError::NotPositiveDefinite { shift })?;
-            Amplifier::ShiftInvert(inverse)
-        }
-        _ => Amplifier::Chebyshev {
-            filter: &filter,
-            low: look.low,
-            first_guess: look.exceeded_by(4 * (plan.wanted.at_least() + 4)),
-        },
-    };
-    let search = Search::new(w, plan, random, look.products, progress)?;
+    let first_guess = look.exceeded_by(4 * (plan.wanted.at_least() + 4));
+    let amplifier = Amplifier { filter: &filter, low: look.low, first_guess };
+    let search = davidson::Search::new(w, plan, random, look.products, progress)?;
     let (found, verification) = search.run(&amplifier, &verifier)?;
     Ok((found, solver, verification))
 }

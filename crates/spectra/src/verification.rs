@@ -49,6 +49,8 @@ pub(crate) struct Outcome {
     pub block: Option<Block>,
     /// Products spent.
     pub products: usize,
+    /// How many eigenvalues exceed a number between the last mode and the next, where that was counted.
+    pub above: Option<usize>,
 }
 
 /// Verifies modes of one matrix.
@@ -72,7 +74,7 @@ impl Verifier<'_> {
     ) -> Result<Outcome, SpectraError> {
         if claim.n_modes == self.w.n_nodes() {
             let verification = Some(Verification::Dense);
-            return Ok(Outcome { verification, block: None, products: 0 });
+            return Ok(Outcome { verification, block: None, products: 0, above: None });
         }
         match self.by_inertia(claim) {
             Some(outcome) => Ok(outcome),
@@ -93,7 +95,8 @@ impl Verifier<'_> {
             if count.above >= claim.n_modes && count.uncertainty < limit - c {
                 let verification = (count.above == claim.n_modes)
                     .then_some(Verification::Inertia { count: count.above });
-                return Some(Outcome { verification, block: None, products: 0 });
+                let above = Some(count.above);
+                return Some(Outcome { verification, block: None, products: 0, above });
             }
             None
         })
@@ -126,7 +129,7 @@ impl Verifier<'_> {
         }
         let found_more = theta > claim.wanted.missing_from(claim.last, self.grouping);
         let verification = (!found_more).then_some(Verification::Probed { probes, confidence });
-        Ok(Outcome { verification, block, products })
+        Ok(Outcome { verification, block, products, above: None })
     }
 }
 

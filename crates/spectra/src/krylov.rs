@@ -1,0 +1,437 @@
+//! Leading modes by a block Lanczos method on (μ − S)⁻¹, μ slightly above 0, with all vectors kept
+//! orthogonal.
+//!
+//! Let the basis V be orthogonal to the kernel of S, and (μ − S)⁻¹ V = V H + Q B with Q orthogonal to
+//! V. An eigenpair H y = ν y has the residual Q B y, the eigenvalue λ = μ − 1/ν of S belongs to it,
+//! and the vector
+//!
+//! ```text
+//! û = (μ − S)⁻¹ V y / ν = V y + Q B y / ν        has        (S − λ) û = −Q B y / ν²
+//! ```
+//!
+//! (Ericsson & Ruhe, Math. Comp. 35, 1251 (1980)). Where λ is close to 0, and ν large, these vectors
+//! converge in half of the steps that V y would take. A last Rayleigh–Ritz step on S makes modes of
+//! them. When V is full it is cut down to its leading Ritz vectors (Wu & Simon, SIAM J. Matrix Anal.
+//! Appl. 22, 602 (2000)). Copies of an eigenvalue beyond the width of a block are found from random
+//! vectors that enter when [`crate::verification`] knows of them.
+
+use faer::Mat;
+use graph::CouplingMatrix;
+
+use crate::basis::Eigenpairs;
+use crate::block::{Basis, Block};
+use crate::completeness::Found;
+use crate::dense::symmetric_eigen;
+use crate::inverse::Inverse;
+use crate::kernel::{components, kernel};
+use crate::probing::FIRST_PROBES;
+use crate::product::multiply_block;
+use crate::progress::{Advance, Progress};
+use crate::random::Random;
+use crate::request::Plan;
+use crate::verification::{Claim, Verifier};
+use crate::{SpectraError, Verification};
+
+/// Vectors that the inverse multiplies at once, at first: pairs of equal eigenvalues are frequent.
+const WIDTH: usize = 2;
+/// Random vectors that enter when eigenvalues are missing.
+const ADDED: usize = 4;
+/// Ritz vectors kept at a restart beside those wanted.
+const SPARE: usize = 8;
+/// Vectors that fit into the basis beyond those kept.
+const FRESH: usize = 48;
+/// Blocks less independent than this are made orthonormal vector by vector.
+const INDEPENDENT: f64 = 1e-3;
+/// Residuals expected must be smaller than the bound by this factor.
+const STRICTNESS: f64 = 0.25;
+
+/// The state of a search.
+pub(crate) struct Search<'a> {
+    w: &'a CouplingMatrix,
+    plan: &'a Plan,
+    inverse: &'a Inverse<'a>,
+    progress: Progress<'a>,
+    random: Random,
+    products: usize,
+    /// The eigenvectors that are locked, then V.
+    basis: Basis,
+    /// Eigenvalues of those locked: of the kernel of S, and of others as accurate as they must be.
+    locked: Vec<f64>,
+    /// Rows of the lower triangle of H.
+    projected: Vec<Vec<f64>>,
+    /// Q; none when the basis is one of all space.
+    next: Option<Block>,
+    /// B.
+    coupling: Mat<f64>,
+    /// Vectors at the end of V that it couples to Q.
+    coupled: usize,
+    strictness: f64,
+    /// Leading eigenvalues that have converged.
+    n_settled: usize,
+    /// How many eigenvalues a count has shown to be there.
+    at_least: usize,
+}
+
+/// Ritz values of the inverse, descending, their residuals, and their coordinates in V.
+struct Ritz {
+    nu: Vec<f64>,
+    residuals: Vec<f64>,
+    coordinates: Mat<f64>,
+}
+
+impl<'a> Search<'a> {
+    /// A search that knows the kernel of S.
+    pub fn new(
+        w: &'a CouplingMatrix,
+        plan: &'a Plan,
+        inverse: &'a Inverse<'a>,
+        random: Random,
+        progress: Progress<'a>,
+    ) -> Result<Self, SpectraError> {
+        let components = components(w);
+        plan.wanted.check(&vec![0.0; components.count], plan.grouping)?;
+        let mut basis = Basis::empty(w.n_nodes());
+        kernel(w, &components).iter().for_each(|vector| basis.push(vector));
+        let mut search = Self {
+            w,
+            plan,
+            inverse,
+            progress,
+            random,
+            products: 0,
+            locked: vec![0.0; basis.len()],
+            basis,
+            projected: Vec::new(),
+            next: None,
+            coupling: Mat::new(),
+            coupled: 0,
+            strictness: STRICTNESS,
+            n_settled: 0,
+            at_least: 0,
+        };
+        search.enter_random(WIDTH)?;
+        Ok(search)
+    }
+
+    /// Solves until nothing is missing.
+    pub fn run(mut self, verifier: &Verifier<'_>) -> Result<(Found, Verification), SpectraError> {
+        loop {
+            if let Some(block) = self.next.take() {
+                self.extend(&block)?;
+            }
+            let ritz = self.ritz()?;
+            let (settled, next) = self.settled(&ritz);
+            self.n_settled = settled.len();
+            self.plan.wanted.check(&settled, self.plan.grouping)?;
+            self.report(&ritz);
+            let is_all = self.next.is_none();
+            let enough = is_all || settled.len() >= self.at_least;
+            if let Some(n_modes) = self.complete(&settled, next).filter(|_| enough) {
+                let next = settled.get(n_modes).copied().unwrap_or(next);
+                let modes = self.modes(&ritz, settled.len())?;
+                if let Some(found) = self.verified(modes, n_modes, next, verifier)? {
+                    return Ok(found);
+                }
+            } else {
+                self.restart(&ritz);
+            }
+        }
+    }
+
+    /// Multiplies Q, which enters the basis, and finds the next one.
+    fn extend(&mut self, block: &Block) -> Result<(), SpectraError> {
+        self.spend(block.width())?;
+        let image = self.inverse.apply(block);
+        let (before, width) = (self.projected.len(), block.width());
+        // A block couples to those from which it came, and to itself.
+        let first = before - self.coupled;
+        self.basis.append(block);
+        let coupled = self.locked.len() + first..self.basis.len();
+        let overlaps = self.basis.overlaps_in(coupled.clone(), &image);
+        let h = |i: usize, v: usize| if i < first { 0.0 } else { overlaps[(i - first, v)] };
+        for v in 0..width {
+            let inside = |k: usize| 0.5 * (h(k, v) + h(before + v, k - before));
+            let row = (0..=before + v).map(|k| if k < before { h(k, v) } else { inside(k) });
+            self.projected.push(row.collect());
+        }
+        self.coupled = width;
+        let mut rest = image.clone();
+        self.basis.subtract(coupled, &mut rest, overlaps.as_ref());
+        let next = match rest.clone().span()? {
+            Some((rest, least)) if least > INDEPENDENT => self.basis.orthonormalise(rest)?,
+            // Nothing of the rest may be left out as dependent: it would be missing from Q B.
+            Some(_) => self.basis.orthonormalise_one_by_one(&rest)?,
+            None => None,
+        };
+        let Some(next) = next else {
+            return self.enter_random(WIDTH);
+        };
+        let b = next.overlaps(&image);
+        self.coupling = Mat::from_fn(next.width(), before + width, |i, k| {
+            if k < before { 0.0 } else { b[(i, k - before)] }
+        });
+        self.next = Some(next);
+        Ok(())
+    }
+
+    /// Random vectors in the place of Q, or beside it.
+    fn enter_random(&mut self, width: usize) -> Result<(), SpectraError> {
+        let n_rows = self.basis.n_rows();
+        let present = self.next.as_ref().map_or(0, Block::width);
+        let width = width.min(n_rows - self.basis.len() - present);
+        if width == 0 {
+            return Ok(());
+        }
+        let random = self.random.block(n_rows, width);
+        let both = self.next.as_ref().map_or_else(|| random.clone(), |next| next.beside(&random));
+        let before = self.coupling.clone();
+        let Some(both) = self.basis.orthonormalise(both)? else {
+            return Err(self.exhausted());
+        };
+        // Q B in the coordinates of the new Q.
+        self.coupling = match &self.next {
+            Some(next) => both.overlaps(next) * before,
+            None => Mat::zeros(both.width(), self.projected.len()),
+        };
+        self.next = Some(both);
+        Ok(())
+    }
+
+    fn ritz(&self) -> Result<Ritz, SpectraError> {
+        let n_vectors = self.projected.len();
+        let pairs = symmetric_eigen(n_vectors, |i, j| self.projected[i][j])?;
+        let coordinates = Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]);
+        let residuals = match self.next {
+            Some(_) => {
+                let rest = &self.coupling * &coordinates;
+                rest.col_iter().map(|column| column.norm_l2()).collect()
+            }
+            None => vec![0.0; n_vectors],
+        };
+        Ok(Ritz { nu: pairs.values, residuals, coordinates })
+    }
+
+    /// The eigenvalue of S that belongs to one of the inverse.
+    fn lambda(&self, nu: f64) -> f64 {
+        self.inverse.shift() - 1.0 / nu
+    }
+
+    /// The leading eigenvalues that have converged, and what the first that has not may be at most.
+    fn settled(&self, ritz: &Ritz) -> (Vec<f64>, f64) {
+        let bound = self.strictness * self.plan.residual_bound;
+        let mut settled = self.locked.clone();
+        for (&nu, &residual) in ritz.nu.iter().zip(&ritz.residuals) {
+            if residual > bound * nu * nu {
+                settled.sort_by(|a, b| b.total_cmp(a));
+                return (settled, self.lambda(nu + residual));
+            }
+            settled.push(self.lambda(nu));
+        }
+        settled.sort_by(|a, b| b.total_cmp(a));
+        let next = if self.next.is_some() { settled[settled.len() - 1] } else { f64::NEG_INFINITY };
+        (settled, next)
+    }
+
+    /// How many modes to hand over, as soon as they have converged and the next one lies apart.
+    fn complete(&self, settled: &[f64], next: f64) -> Option<usize> {
+        let complete = |values, next| self.plan.wanted.complete(values, next, self.plan.grouping);
+        // The last one settled bounds what follows more tightly than one that has not converged.
+        let without_last = || {
+            let (&last, before) = settled.split_last()?;
+            complete(before, last)
+        };
+        complete(settled, next).or_else(without_last).filter(|&n| n > 0)
+    }
+
+    /// The modes of S in the span of those locked and of the first vectors û.
+    fn modes(&mut self, ritz: &Ritz, n_vectors: usize) -> Result<Modes, SpectraError> {
+        let mut modes = Basis::empty(self.basis.n_rows());
+        (0..self.locked.len()).for_each(|k| modes.push(&self.basis.vector(k)));
+        let n_columns = n_vectors - self.locked.len();
+        for first in (0..n_columns).step_by(Block::WIDEST) {
+            let block = self.improved(ritz, first, Block::WIDEST.min(n_columns - first));
+            if let Some(block) = modes.orthonormalise(block)? {
+                modes.append(&block);
+            }
+        }
+        self.spend(2 * modes.len())?;
+        Modes::in_span(self.w, modes)
+    }
+
+    /// Some of the vectors û.
+    fn improved(&self, ritz: &Ritz, first: usize, count: usize) -> Block {
+        let y = ritz.coordinates.as_ref().subcols(first, count);
+        let coordinates =
+            Mat::from_fn(self.basis.len(), count, |i, k| match i.checked_sub(self.locked.len()) {
+                Some(i) => y[(i, k)],
+                None => 0.0,
+            });
+        let mut block = self.basis.combine(coordinates.as_ref());
+        if let Some(next) = &self.next {
+            let rest: Mat<f64> = &self.coupling * y;
+            let rest = Mat::from_fn(rest.nrows(), count, |i, k| rest[(i, k)] / ritz.nu[first + k]);
+            block.add_scaled(&next.combine(rest.as_ref()), &vec![1.0; count]);
+        }
+        block
+    }
+
+    /// The modes, if they are accurate and none is missing; otherwise what is to change is changed.
+    fn verified(
+        &mut self,
+        modes: Modes,
+        n_modes: usize,
+        next: f64,
+        verifier: &Verifier<'_>,
+    ) -> Result<Option<(Found, Verification)>, SpectraError> {
+        let bound = self.plan.residual_bound;
+        let n_accurate = modes.residuals.iter().take_while(|&&r| r <= bound).count();
+        if n_accurate < n_modes {
+            return self.lock(&modes).map(|()| None);
+        }
+        let Some(present) = self.next.as_ref().map(Block::width) else {
+            return Ok(Some((modes.first(n_modes, self.products), Verification::Dense)));
+        };
+        let claim = Claim {
+            n_modes,
+            last: modes.values[n_modes - 1],
+            wanted: self.plan.wanted,
+            next,
+            top: modes.values[0],
+            beyond: Vec::new(),
+            products_left: self.plan.max_products.saturating_sub(self.products),
+            products_spent: self.products,
+            probes: FIRST_PROBES,
+        };
+        let outcome = verifier.verify(&claim, &modes.basis, &mut self.random)?;
+        self.products += outcome.products;
+        if let Some(verification) = outcome.verification {
+            return Ok(Some((modes.first(n_modes, self.products), verification)));
+        }
+        self.at_least = outcome.above.unwrap_or(n_modes + 1);
+        self.enter_random(ADDED.min(Block::WIDEST - present))?;
+        Ok(None)
+    }
+
+    /// Keeps the leading modes that are as accurate as they must be, and starts from the others again.
+    ///
+    /// Rounding disturbs H by 10⁻¹⁶ of its largest eigenvalue, which may be much for modes far below.
+    fn lock(&mut self, modes: &Modes) -> Result<(), SpectraError> {
+        let bound = self.plan.residual_bound;
+        let n_accurate = modes.residuals.iter().take_while(|&&r| r <= bound).count();
+        if n_accurate <= self.locked.len() {
+            self.strictness *= 0.1;
+            return if self.next.is_some() { Ok(()) } else { Err(self.exhausted()) };
+        }
+        let (found, rest) = modes.vectors_from(n_accurate);
+        self.basis = found;
+        self.locked = modes.values[..n_accurate].to_vec();
+        (self.projected, self.coupled, self.next) = (Vec::new(), 0, None);
+        self.next = rest.map_or(Ok(None), |rest| self.basis.orthonormalise(rest))?;
+        self.coupling = Mat::zeros(self.next.as_ref().map_or(0, Block::width), 0);
+        if self.next.is_none() { self.enter_random(WIDTH) } else { Ok(()) }
+    }
+
+    /// Cuts the basis down to its leading Ritz vectors when it is full.
+    fn restart(&mut self, ritz: &Ritz) {
+        let kept = self.known(ritz).saturating_sub(self.locked.len()) + SPARE;
+        if self.projected.len() <= kept + kept / 2 + FRESH {
+            return;
+        }
+        let n_locked = self.locked.len();
+        let y = ritz.coordinates.as_ref().subcols(0, kept);
+        let rotation = Mat::from_fn(self.basis.len(), n_locked + kept, |i, k| {
+            match (i.checked_sub(n_locked), k.checked_sub(n_locked)) {
+                (Some(i), Some(k)) => y[(i, k)],
+                (None, None) if i == k => 1.0,
+                _ => 0.0,
+            }
+        });
+        self.basis.transform(rotation.as_ref());
+        self.coupling = &self.coupling * y;
+        self.coupled = kept;
+        let diagonal = |k: usize| (0..=k).map(|i| if i == k { ritz.nu[k] } else { 0.0 }).collect();
+        self.projected = (0..kept).map(diagonal).collect();
+    }
+
+    /// Modes known to be wanted.
+    fn known(&self, ritz: &Ritz) -> usize {
+        let values = ritz.nu.iter().map(|&nu| self.lambda(nu));
+        let values: Vec<f64> = self.locked.iter().copied().chain(values).collect();
+        self.plan.wanted.known(&values, self.plan.grouping)
+    }
+
+    fn spend(&mut self, products: usize) -> Result<(), SpectraError> {
+        if self.products + products > self.plan.max_products {
+            return Err(self.exhausted());
+        }
+        self.products += products;
+        Ok(())
+    }
+
+    fn exhausted(&self) -> SpectraError {
+        self.plan.exhausted(self.n_settled, self.products)
+    }
+
+    fn report(&self, ritz: &Ritz) {
+        (self.progress)(Advance {
+            products: self.products,
+            converged: self.n_settled,
+            wanted: self.known(ritz),
+        });
+    }
+}
+
+/// Ritz pairs of S.
+struct Modes {
+    values: Vec<f64>,
+    basis: Basis,
+    residuals: Vec<f64>,
+}
+
+impl Modes {
+    /// Those of a span, with two products a vector.
+    fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
+        let n_vectors = basis.len();
+        let images = |basis: &Basis, call: &mut dyn FnMut(usize, &Block, Block)| {
+            for first in (0..n_vectors).step_by(Block::WIDEST) {
+                let count = Block::WIDEST.min(n_vectors - first);
+                let unit = |i, k: usize| if i == first + k { 1.0 } else { 0.0 };
+                let block = basis.combine(Mat::from_fn(n_vectors, count, unit).as_ref());
+                let image = multiply_block(w.symmetric(), &block);
+                call(first, &block, image);
+            }
+        };
+        let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
+        images(&basis, &mut |first, _, image| {
+            let overlaps = basis.overlaps(&image);
+            projected.as_mut().subcols_mut(first, image.width()).copy_from(&overlaps);
+        });
+        let pairs =
+            symmetric_eigen(n_vectors, |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;
+        basis.transform(Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]).as_ref());
+        let mut residuals = Vec::with_capacity(n_vectors);
+        images(&basis, &mut |first, block, mut image| {
+            let minus: Vec<f64> =
+                pairs.values[first..first + block.width()].iter().map(|l| -l).collect();
+            image.add_scaled(block, &minus);
+            residuals.extend(image.norms());
+        });
+        Ok(Self { values: pairs.values, basis, residuals })
+    }
+
+    /// The first vectors, and some of the others.
+    fn vectors_from(&self, n_vectors: usize) -> (Basis, Option<Block>) {
+        let mut first = Basis::empty(self.basis.n_rows());
+        (0..n_vectors).for_each(|k| first.push(&self.basis.vector(k)));
+        let count = WIDTH.min(self.basis.len() - n_vectors);
+        let unit = |i, k: usize| if i == n_vectors + k { 1.0 } else { 0.0 };
+        let rest = Mat::from_fn(self.basis.len(), count, unit);
+        (first, (count > 0).then(|| self.basis.combine(rest.as_ref())))
+    }
+
+    fn first(mut self, n_modes: usize, products: usize) -> Found {
+        self.values.truncate(n_modes);
+        let vectors = (0..n_modes).map(|k| self.basis.vector(k)).collect();
+        Found { pairs: Eigenpairs { values: self.values, vectors }, products }
+    }
+}
