@@ -38,7 +38,7 @@ impl Stages {
     }
 
     /// Runs a stage whose length is not known beforehand; it tells in words how far it has come.
-    pub fn told<T>(&self, stage: &str, work: impl FnOnce(&dyn Fn(&str)) -> T) -> T {
+    pub fn told<T>(&self, stage: &str, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
         let bar = self.bar(stage, "{prefix} {spinner} {elapsed}  {msg}", None);
         let result = self.timed(stage, || work(&|words| bar.set_message(words.to_owned())));
         bar.finish_and_clear();

@@ -6,8 +6,6 @@
 //!
 //! Source: Y. Zhou, Y. Saad, M. L. Tiago & J. R. Chelikowsky, J. Comput. Phys. 219, 172 (2006).
 
-use graph::CouplingMatrix;
-
 use crate::block::Block;
 use crate::product::{Links, Step};
 
@@ -43,53 +41,36 @@ impl Interval {
     }
 }
 
-/// A matrix ready to be filtered by.
-pub(crate) struct Filter<'a> {
-    links: Links<'a>,
-    scale: &'a [f64],
+/// T_d(t(S)) X, with d ≥ 1 products for each vector.
+pub(crate) fn filter(links: &Links<'_>, x: Block, degree: usize, unwanted: Interval) -> Block {
+    filter_between(links, x, degree, unwanted, degree, |_| ())
 }
 
-impl<'a> Filter<'a> {
-    /// Filters by the symmetric form S of a coupling matrix.
-    pub fn new(w: &'a CouplingMatrix) -> Self {
-        Self { links: Links::new(w), scale: w.scale() }
-    }
-
-    /// T_d(t(S)) X, with d ≥ 1 products for each vector.
-    pub fn apply(&self, x: Block, degree: usize, unwanted: Interval) -> Block {
-        self.apply_between(x, degree, unwanted, degree, |_| ())
-    }
-
-    /// T_d(t(S)) X where both vectors of the recurrence are cleaned, in the coordinates of S, every
-    /// `stretch` degrees: a filter amplifies what rounding leaves of eigenvectors projected out.
-    pub fn apply_between(
-        &self,
-        mut x: Block,
-        degree: usize,
-        unwanted: Interval,
-        stretch: usize,
-        clean: impl Fn(&mut Block),
-    ) -> Block {
-        assert!(degree > 0, "a filter of degree 0");
-        let (centre, half_width) = (unwanted.centre(), unwanted.half_width());
-        x.scale_nodes(|i| self.scale[i]);
-        let first = Step { product: 1.0 / half_width, same: -centre / half_width, previous: 0.0 };
-        let next = Step { product: 2.0 * first.product, same: 2.0 * first.same, previous: -1.0 };
-        let mut before = x;
-        let mut now = Block::zeros(before.n_rows(), before.width());
-        self.links.advance(&before, &mut now, first);
-        for done in 1..degree {
-            self.links.advance(&now, &mut before, next);
-            std::mem::swap(&mut before, &mut now);
-            if done % stretch == 0 {
-                for block in [&mut before, &mut now] {
-                    block.scale_nodes(|i| 1.0 / self.scale[i]);
-                    clean(block);
-                    block.scale_nodes(|i| self.scale[i]);
-                }
+/// T_d(t(S)) X where both vectors of the recurrence are cleaned, in the coordinates of S, every
+/// `stretch` degrees: a filter amplifies what rounding leaves of eigenvectors projected out.
+pub(crate) fn filter_between(
+    links: &Links<'_>,
+    x: Block,
+    degree: usize,
+    unwanted: Interval,
+    stretch: usize,
+    clean: impl Fn(&mut Block),
+) -> Block {
+    assert!(degree > 0, "a filter of degree 0");
+    let (centre, half_width) = (unwanted.centre(), unwanted.half_width());
+    let first = Step { product: 1.0 / half_width, same: -centre / half_width, previous: 0.0 };
+    let next = Step { product: 2.0 * first.product, same: 2.0 * first.same, previous: -1.0 };
+    let mut before = links.to_node_space(x);
+    let mut now = Block::zeros(before.n_rows(), before.width());
+    links.advance(&before, &mut now, first);
+    for done in 1..degree {
+        links.advance(&now, &mut before, next);
+        std::mem::swap(&mut before, &mut now);
+        if done % stretch == 0 {
+            for block in [&mut before, &mut now] {
+                links.clean(block, &clean);
             }
         }
-        now.scale_nodes(|i| 1.0 / self.scale[i]);
-        now
     }
+    links.to_symmetric(now)
 }

@@ -18,9 +18,9 @@ use rand_pcg::Pcg64;
 
 use crate::arpack::{self, Outcome, Settings};
 use crate::basis::{Eigenpairs, orthonormalise_against, rayleigh_ritz};
-use crate::block::Basis;
 use crate::kernel::{components, kernel};
 use crate::operator::{Deflated, Operator, Shifted};
+use crate::orthonormal::Basis;
 use crate::probing::FIRST_PROBES;
 use crate::random::Random;
 use crate::request::Plan;

@@ -1,28 +1,28 @@
 //! Leading modes by a block Davidson method: Rayleigh–Ritz on a basis that grows by amplified Ritz
 //! vectors.
 //!
-//! From the basis V, V ᵀ S V = Q Θ Qᵀ gives Ritz vectors V q. The first of them that have not
-//! converged are amplified in the wanted directions, by a Chebyshev filter (Zhou & Saad, SIAM J.
-//! Matrix Anal. Appl. 29, 954 (2007)) or by (μ − S)⁻¹ (the span is then that of a block Lanczos
-//! method on the inverse), made orthogonal to V, and added; when V is full it is cut down to its
-//! leading Ritz vectors, unless it is a basis of all space. Blocks find up to four copies of an eigenvalue at once and further ones
-//! through the probes at the end, which enter the same basis: no copy is handed over as missing
-//! before [`crate::verification`] has been satisfied.
-//!
-//! The search starts from the kernel of S, which is known.
+//! The search starts from the kernel of S, which is known. Long Lanczos sequences, which cost the fewest
+//! products, find one copy of each eigenvalue ([`crate::long_sequence`]). Blocks find several: the first
+//! Ritz vectors that have not converged are amplified by a Chebyshev filter (Zhou & Saad, SIAM J. Matrix
+//! Anal. Appl. 29, 954 (2007)), made orthogonal to the basis, and added; when it is full it is cut down
+//! to its leading Ritz vectors. Probes that find a copy missing at the end enter the same basis: no
+//! modes are handed over before [`crate::verification`] has been satisfied.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use graph::CouplingMatrix;
 
 use crate::basis::Eigenpairs;
-use crate::block::{Basis, Block};
+use crate::block::Block;
 use crate::completeness::Found;
-use crate::dense::symmetric_eigen;
 use crate::expansion::{Amplifier, Situation};
 use crate::kernel::{components, kernel};
+use crate::long_sequence::LongSequence;
+use crate::orthonormal::Basis;
+use crate::pace::Pace;
 use crate::probing::FIRST_PROBES;
-use crate::product::multiply_block;
+use crate::product::Links;
 use crate::progress::{Advance, Progress};
+use crate::projected::{Projected, Ritz};
 use crate::random::Random;
 use crate::request::Plan;
 use crate::verification::{Claim, Verifier};
@@ -35,26 +35,13 @@ const NARROWEST: usize = 2;
 /// Blocks that fit into the basis beyond the vectors kept at a restart.
 const FRESH_BLOCKS: usize = 10;
 
-/// Ritz values, descending, and their coordinates in the basis.
-struct Ritz {
-    values: Vec<f64>,
-    coordinates: Mat<f64>,
-}
-
-impl Ritz {
-    fn columns(&self, first: usize, count: usize) -> MatRef<'_, f64> {
-        self.coordinates.as_ref().subcols(first, count)
-    }
-}
-
 /// The state of a search.
 pub(crate) struct Search<'a> {
     w: &'a CouplingMatrix,
+    links: &'a Links<'a>,
     plan: &'a Plan,
     progress: Progress<'a>,
-    basis: Basis,
-    /// Rows of the lower triangle of Vᵀ S V.
-    projected: Vec<Vec<f64>>,
+    space: Projected,
     /// Eigenvalues of the leading Ritz vectors that have converged.
     settled: Vec<f64>,
     random: Random,
@@ -72,7 +59,7 @@ struct Front {
 impl<'a> Search<'a> {
     /// A search that knows the kernel of S.
     pub fn new(
-        w: &'a CouplingMatrix,
+        (w, links): (&'a CouplingMatrix, &'a Links<'a>),
         plan: &'a Plan,
         random: Random,
         products: usize,
@@ -84,10 +71,10 @@ impl<'a> Search<'a> {
         for vector in kernel(w, &components) {
             basis.push(&vector);
         }
-        let projected = (0..basis.len()).map(|k| vec![0.0; k + 1]).collect();
         let settled = vec![0.0; basis.len()];
+        let space = Projected::kernel(basis);
         let probes = FIRST_PROBES;
-        Ok(Self { w, plan, progress, basis, projected, settled, random, products, probes })
+        Ok(Self { w, links, plan, progress, space, settled, random, products, probes })
     }
 
     /// Solves until nothing is missing.
@@ -96,44 +83,56 @@ impl<'a> Search<'a> {
         amplifier: &Amplifier<'_>,
         verifier: &Verifier<'_>,
     ) -> Result<(Found, Verification), SpectraError> {
-        let mut addition = None;
+        let most_steps = LongSequence::most_steps(self.w.n_nodes());
+        let mut pace = Pace::default();
+        if most_steps.is_none() {
+            self.extend(None)?;
+        }
         loop {
-            self.extend(addition.take())?;
-            let mut ritz = self.ritz()?;
-            if self.basis.len() == self.w.n_nodes() {
-                return self.everything(&ritz);
+            let mut ritz = self.space.ritz()?;
+            if self.space.basis.len() == self.w.n_nodes() {
+                return self.everything(ritz);
             }
             let front = self.settle(&ritz)?;
+            let due =
+                pace.sequence_is_due(self.settled.len(), front.residual, self.plan.residual_bound);
             self.plan.wanted.check(&self.settled, self.plan.grouping)?;
             self.report(&ritz);
             if let Some(n_modes) = self.complete(&ritz, &front)
                 && self.all_converged(&ritz, n_modes)?
             {
-                self.rotate(&ritz, ritz.values.len());
-                ritz = self.rotated(&ritz);
+                let n_vectors = ritz.values.len();
+                ritz = self.space.rotate(ritz, n_vectors);
                 match self.verify(&ritz, &front, n_modes, verifier)? {
                     Ok(verification) => return Ok((self.hand_over(&ritz, n_modes), verification)),
-                    Err(block) => addition = block,
+                    Err(block) => self.extend(block)?,
                 }
+                pace.continue_in_blocks();
+                continue;
+            }
+            let kept = self.kept(&ritz).min(ritz.values.len());
+            let full = self.space.basis.len() + WIDTH > kept + FRESH_BLOCKS * WIDTH + kept / 2;
+            let most_steps = most_steps.filter(|_| due);
+            if full || most_steps.is_some() {
+                ritz = self.space.rotate(ritz, kept);
+            }
+            if let Some(most_steps) = most_steps {
+                self.extend_by_sequence(&ritz, amplifier, most_steps)?;
             } else {
-                let kept = self.kept(&ritz);
-                if self.basis.len() + WIDTH > kept + FRESH_BLOCKS * WIDTH + kept / 2 {
-                    self.rotate(&ritz, kept.min(ritz.values.len()));
-                    ritz = self.rotated(&ritz);
-                }
-                addition = self.amplified(&ritz, amplifier)?;
+                let amplified = self.amplified(&ritz, amplifier)?;
+                self.extend(amplified)?;
             }
         }
     }
 
     /// The modes when the basis is one of all space, and every Ritz vector an eigenvector.
-    fn everything(mut self, ritz: &Ritz) -> Result<(Found, Verification), SpectraError> {
+    fn everything(mut self, ritz: Ritz) -> Result<(Found, Verification), SpectraError> {
         self.plan.wanted.check(&ritz.values, self.plan.grouping)?;
         let n_modes =
             self.plan.wanted.complete(&ritz.values, f64::NEG_INFINITY, self.plan.grouping);
         let n_modes = n_modes.expect("all modes are complete");
-        self.rotate(ritz, n_modes);
-        Ok((self.hand_over(ritz, n_modes), Verification::Dense))
+        let ritz = self.space.rotate(ritz, n_modes);
+        Ok((self.hand_over(&ritz, n_modes), Verification::Dense))
     }
 
     /// The next block: the first Ritz vectors that have not converged, amplified.
@@ -152,9 +151,47 @@ impl<'a> Search<'a> {
             guard: ritz.values.get(self.kept(ritz)).copied(),
             cutoff: self.plan.wanted.cutoff(),
         };
-        let block = self.basis.combine(ritz.columns(first, width));
+        let block = self.space.basis.combine(ritz.columns(first, width));
         self.spend(amplifier.products(&situation) * width)?;
         Ok(Some(amplifier.apply(block, &situation)))
+    }
+
+    /// Adds the Ritz vectors of a long sequence that starts from those that have not converged; the
+    /// basis consists of Ritz vectors.
+    fn extend_by_sequence(
+        &mut self,
+        ritz: &Ritz,
+        amplifier: &Amplifier<'_>,
+        most_steps: usize,
+    ) -> Result<(), SpectraError> {
+        let n_settled = self.settled.len();
+        let start = if n_settled < ritz.values.len() {
+            let front = |k, _| if k < n_settled { 0.0 } else { 1.0 };
+            self.space.basis.combine(Mat::from_fn(ritz.values.len(), 1, front).as_ref())
+        } else {
+            self.random.block(self.w.n_nodes(), 1)
+        };
+        let known = self.space.basis.first(n_settled);
+        let (settled, plan) = (&self.settled, self.plan);
+        let needed = |values: &[f64]| {
+            let all: Vec<f64> = settled.iter().chain(values).copied().collect();
+            plan.wanted.known(&all, plan.grouping) - n_settled
+        };
+        let sequence = LongSequence {
+            links: self.links,
+            known: &known,
+            stretch: amplifier.stretch(ritz.values[0], ritz.values.get(n_settled)),
+            residual_bound: plan.residual_bound,
+            grouping: plan.grouping,
+            scale: plan.scale,
+        };
+        let most_steps = most_steps.min(plan.max_products.saturating_sub(self.products));
+        let (vectors, products) = sequence.run(start, most_steps, needed)?;
+        self.spend(products)?;
+        for block in vectors {
+            self.extend(Some(block))?;
+        }
+        Ok(())
     }
 
     /// Vectors to work on: as many as are missing, within bounds.
@@ -165,38 +202,22 @@ impl<'a> Search<'a> {
 
     /// Adds a block to the basis; a random one where there is none, or nothing new in it.
     fn extend(&mut self, block: Option<Block>) -> Result<(), SpectraError> {
-        let n_rows = self.basis.n_rows();
-        let missing = n_rows - self.basis.len();
+        let n_rows = self.space.basis.n_rows();
+        let missing = n_rows - self.space.basis.len();
         if missing == 0 {
             return Ok(());
         }
-        let new = block.map_or(Ok(None), |block| self.basis.orthonormalise(block))?;
+        let new = block.map_or(Ok(None), |block| self.space.basis.orthonormalise(block))?;
         let random = &mut self.random;
         let new = new.map_or_else(
-            || self.basis.orthonormalise(random.block(n_rows, WIDTH.min(missing))),
+            || self.space.basis.orthonormalise(random.block(n_rows, WIDTH.min(missing))),
             |block| Ok(Some(block)),
         )?;
         let block = new.ok_or_else(|| self.unproven())?;
         self.spend(block.width())?;
-        let image = multiply_block(self.w.symmetric(), &block);
-        let before = self.basis.len();
-        self.basis.append(&block);
-        let overlaps = self.basis.overlaps(&image);
-        for v in 0..block.width() {
-            let inside = |k: usize| 0.5 * (overlaps[(k, v)] + overlaps[(before + v, k - before)]);
-            let row = (0..=before + v)
-                .map(|k| if k < before { overlaps[(k, v)] } else { inside(k) })
-                .collect();
-            self.projected.push(row);
-        }
+        let image = self.links.multiply(&block);
+        self.space.append(&block, &image);
         Ok(())
-    }
-
-    fn ritz(&self) -> Result<Ritz, SpectraError> {
-        let n_vectors = self.basis.len();
-        let pairs = symmetric_eigen(n_vectors, |i, j| self.projected[i][j])?;
-        let coordinates = Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]);
-        Ok(Ritz { values: pairs.values, coordinates })
     }
 
     /// Finds out how many of the leading Ritz vectors have converged.
@@ -229,8 +250,8 @@ impl<'a> Search<'a> {
         count: usize,
     ) -> Result<Vec<f64>, SpectraError> {
         self.spend(count)?;
-        let block = self.basis.combine(ritz.columns(first, count));
-        let mut image = multiply_block(self.w.symmetric(), &block);
+        let block = self.space.basis.combine(ritz.columns(first, count));
+        let mut image = self.links.multiply(&block);
         let minus: Vec<f64> = ritz.values[first..first + count].iter().map(|t| -t).collect();
         image.add_scaled(&block, &minus);
         Ok(image.norms())
@@ -295,31 +316,13 @@ impl<'a> Search<'a> {
             products_spent: self.products,
             probes: self.probes,
         };
-        let outcome = verifier.verify(&claim, &self.basis, &mut self.random)?;
+        let outcome = verifier.verify(&claim, &self.space.basis, &mut self.random)?;
         self.products += outcome.products;
         self.probes = (2 * self.probes).min(Block::WIDEST);
         Ok(match outcome.verification {
             Some(verification) => Ok(verification),
             None => Err(outcome.block),
         })
-    }
-
-    /// Replaces the basis by its leading Ritz vectors.
-    fn rotate(&mut self, ritz: &Ritz, kept: usize) {
-        self.basis.transform(ritz.columns(0, kept));
-        self.projected = (0..kept)
-            .map(|k| {
-                let mut row = vec![0.0; k + 1];
-                row[k] = ritz.values[k];
-                row
-            })
-            .collect();
-    }
-
-    /// The Ritz pairs after [`Self::rotate`].
-    fn rotated(&self, ritz: &Ritz) -> Ritz {
-        let kept = self.basis.len();
-        Ritz { values: ritz.values[..kept].to_vec(), coordinates: Mat::identity(kept, kept) }
     }
 
     /// Vectors that survive a restart.
@@ -350,7 +353,7 @@ impl<'a> Search<'a> {
 
     /// The leading vectors of a basis that consists of Ritz vectors.
     fn hand_over(self, ritz: &Ritz, n_modes: usize) -> Found {
-        let vectors = (0..n_modes).map(|k| self.basis.vector(k)).collect();
+        let vectors = (0..n_modes).map(|k| self.space.basis.vector(k)).collect();
         let values = ritz.values[..n_modes].to_vec();
         Found { pairs: Eigenpairs { values, vectors }, products: self.products }
     }

@@ -3,9 +3,12 @@
 //! S = U Λ Uᵀ by reduction to a tridiagonal matrix and divide and conquer. One thread always, so
 //! that the result does not depend on how many there are.
 
+use faer::diag::{Diag, DiagRef};
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
-use faer::{Mat, Par, diag::Diag};
+use faer::linalg::evd::{
+    ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch, tridiagonal_self_adjoint_evd,
+};
+use faer::{Mat, Par};
 use graph::SparseMatrix;
 
 use crate::basis::Eigenpairs;
@@ -59,4 +62,43 @@ pub(crate) fn symmetric_eigen(
         values: ascending.column_vector().iter().rev().copied().collect(),
         vectors: vectors.col_iter().rev().map(|u| u.iter().copied().collect()).collect(),
     })
+}
+
+/// All eigenpairs of a symmetric tridiagonal matrix.
+pub(crate) struct TridiagonalEigen {
+    /// Eigenvalues, descending.
+    pub values: Vec<f64>,
+    /// Eigenvectors, as columns.
+    pub vectors: Mat<f64>,
+}
+
+/// All eigenpairs of a symmetric tridiagonal matrix.
+///
+/// - `beside`: the entries beside the diagonal, one fewer.
+pub(crate) fn tridiagonal_eigen(
+    diagonal: &[f64],
+    beside: &[f64],
+) -> Result<TridiagonalEigen, SpectraError> {
+    let n_rows = diagonal.len();
+    let mut ascending = Diag::<f64>::zeros(n_rows);
+    let mut vectors = Mat::<f64>::zeros(n_rows, n_rows);
+    let padded: Vec<f64> = beside.iter().copied().chain([0.0]).collect();
+    let scratch = self_adjoint_evd_scratch::<f64>(
+        n_rows,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        Default::default(),
+    );
+    tridiagonal_self_adjoint_evd(
+        DiagRef::from_slice(diagonal),
+        DiagRef::from_slice(&padded),
+        ascending.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| SpectraError::DenseNotConverged { n_rows })?;
+    let values = ascending.column_vector().iter().rev().copied().collect();
+    Ok(TridiagonalEigen { values, vectors: vectors.reverse_cols().to_owned() })
 }

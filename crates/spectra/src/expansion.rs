@@ -1,7 +1,8 @@
 //! How the block method amplifies what is wanted: by a Chebyshev filter of a degree that fits.
 
 use crate::block::Block;
-use crate::chebyshev::{Filter, Interval};
+use crate::chebyshev::{Interval, filter};
+use crate::product::Links;
 
 /// The highest degree of a filter.
 const HIGHEST_DEGREE: usize = 24;
@@ -9,9 +10,12 @@ const HIGHEST_DEGREE: usize = 24;
 /// rounding leaves of modes found then stays small.
 const LARGEST_GAIN: f64 = 1e10;
 
+/// A sequence may amplify it by this much before it is projected out.
+const STRETCH_GAIN: f64 = 1e6;
+
 /// T_d(t(S)), whose largest eigenvalues belong to the wanted eigenvectors.
 pub(crate) struct Amplifier<'a> {
-    pub filter: &'a Filter<'a>,
+    pub links: &'a Links<'a>,
     /// At most the smallest eigenvalue of S.
     pub low: f64,
     /// Upper end of the unwanted part while little is known.
@@ -37,7 +41,15 @@ impl Amplifier<'_> {
     /// Amplifies the vectors of a block.
     pub fn apply(&self, block: Block, situation: &Situation) -> Block {
         let unwanted = self.interval(situation);
-        self.filter.apply(block, degree(situation, unwanted), unwanted)
+        filter(self.links, block, degree(situation, unwanted), unwanted)
+    }
+
+    /// Steps after which what rounding leaves of the largest eigenvalue has to be projected out again,
+    /// when eigenvalues up to `high` are not amplified.
+    pub fn stretch(&self, top: f64, high: Option<&f64>) -> usize {
+        let high = high.copied().unwrap_or(self.first_guess);
+        let unwanted = Interval { low: self.low, high };
+        (STRETCH_GAIN.ln() / unwanted.growth(top)).clamp(1.0, 1e6) as usize
     }
 
     fn interval(&self, situation: &Situation) -> Interval {

@@ -18,17 +18,17 @@
 use faer::Mat;
 use graph::CouplingMatrix;
 
-use crate::basis::Eigenpairs;
-use crate::block::{Basis, Block};
+use crate::block::Block;
 use crate::completeness::Found;
 use crate::dense::symmetric_eigen;
 use crate::inverse::Inverse;
 use crate::kernel::{components, kernel};
+use crate::orthonormal::Basis;
 use crate::probing::FIRST_PROBES;
-use crate::product::multiply_block;
 use crate::progress::{Advance, Progress};
 use crate::random::Random;
 use crate::request::Plan;
+use crate::ritz::Modes;
 use crate::verification::{Claim, Verifier};
 use crate::{SpectraError, Verification};
 
@@ -322,7 +322,7 @@ impl<'a> Search<'a> {
             self.strictness *= 0.1;
             return if self.next.is_some() { Ok(()) } else { Err(self.exhausted()) };
         }
-        let (found, rest) = modes.vectors_from(n_accurate);
+        let (found, rest) = modes.vectors_from(n_accurate, WIDTH);
         self.basis = found;
         self.locked = modes.values[..n_accurate].to_vec();
         (self.projected, self.coupled, self.next) = (Vec::new(), 0, None);
@@ -378,60 +378,5 @@ impl<'a> Search<'a> {
             converged: self.n_settled,
             wanted: self.known(ritz),
         });
-    }
-}
-
-/// Ritz pairs of S.
-struct Modes {
-    values: Vec<f64>,
-    basis: Basis,
-    residuals: Vec<f64>,
-}
-
-impl Modes {
-    /// Those of a span, with two products a vector.
-    fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
-        let n_vectors = basis.len();
-        let images = |basis: &Basis, call: &mut dyn FnMut(usize, &Block, Block)| {
-            for first in (0..n_vectors).step_by(Block::WIDEST) {
-                let count = Block::WIDEST.min(n_vectors - first);
-                let unit = |i, k: usize| if i == first + k { 1.0 } else { 0.0 };
-                let block = basis.combine(Mat::from_fn(n_vectors, count, unit).as_ref());
-                let image = multiply_block(w.symmetric(), &block);
-                call(first, &block, image);
-            }
-        };
-        let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
-        images(&basis, &mut |first, _, image| {
-            let overlaps = basis.overlaps(&image);
-            projected.as_mut().subcols_mut(first, image.width()).copy_from(&overlaps);
-        });
-        let pairs =
-            symmetric_eigen(n_vectors, |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;
-        basis.transform(Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]).as_ref());
-        let mut residuals = Vec::with_capacity(n_vectors);
-        images(&basis, &mut |first, block, mut image| {
-            let minus: Vec<f64> =
-                pairs.values[first..first + block.width()].iter().map(|l| -l).collect();
-            image.add_scaled(block, &minus);
-            residuals.extend(image.norms());
-        });
-        Ok(Self { values: pairs.values, basis, residuals })
-    }
-
-    /// The first vectors, and some of the others.
-    fn vectors_from(&self, n_vectors: usize) -> (Basis, Option<Block>) {
-        let mut first = Basis::empty(self.basis.n_rows());
-        (0..n_vectors).for_each(|k| first.push(&self.basis.vector(k)));
-        let count = WIDTH.min(self.basis.len() - n_vectors);
-        let unit = |i, k: usize| if i == n_vectors + k { 1.0 } else { 0.0 };
-        let rest = Mat::from_fn(self.basis.len(), count, unit);
-        (first, (count > 0).then(|| self.basis.combine(rest.as_ref())))
-    }
-
-    fn first(mut self, n_modes: usize, products: usize) -> Found {
-        self.values.truncate(n_modes);
-        let vectors = (0..n_modes).map(|k| self.basis.vector(k)).collect();
-        Found { pairs: Eigenpairs { values: self.values, vectors }, products }
     }
 }

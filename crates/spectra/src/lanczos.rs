@@ -1,72 +1,95 @@
-//! A first look at the spectrum: a few Lanczos steps, for the filter's ends.
+//! Lanczos' three-term recurrence, without reorthogonalisation.
 //!
-//! The Ritz values of k steps and the squared first components of their vectors are nodes and weights
-//! of a Gauss quadrature of the density of eigenvalues (Lin, Saad & Yang, SIAM Review 58, 34 (2016)),
-//! so weight · N counts eigenvalues. The smallest Ritz value less the norm of the last residual
-//! bounds the spectrum from below (Zhou & Li, J. Comput. Appl. Math. 235, 4163 (2011)); so does
-//! −2 max_i |w_ii|, by Gershgorin, and always.
+//! β_k x_{k+1} = W x_k − α_k x_k − β_{k−1} x_{k−1}, in node space, on W = D^{-1/2} S D^{1/2}, where an
+//! unweighted network needs no weights; with q = D^{1/2} x, ⟨q, q'⟩ = Σ_i d_i x_i x'_i. A step looks at
+//! three vectors, however many there have been. Orthogonality to the others is lost only in the
+//! directions of Ritz vectors that have converged (Paige, Linear Algebra Appl. 34, 235 (1980)).
 
-use graph::CouplingMatrix;
+use rayon::prelude::*;
 
 use crate::SpectraError;
-use crate::block::Basis;
-use crate::dense::symmetric_eigen;
-use crate::product::multiply_block;
-use crate::random::Random;
+use crate::block::{Block, ROWS};
+use crate::dense::{TridiagonalEigen, tridiagonal_eigen};
+use crate::orthonormal::Basis;
+use crate::product::{Links, Step, weighted_sum};
 
-/// Steps of the look.
-const STEPS: usize = 24;
-
-/// What a few Lanczos steps tell of the spectrum of S.
-pub(crate) struct Look {
-    /// At most the smallest eigenvalue.
-    pub low: f64,
-    /// Ritz values descending, with the number of eigenvalues that each stands for.
-    pub density: Vec<(f64, f64)>,
-    /// Products spent.
-    pub products: usize,
+/// A sequence of Lanczos vectors, of which the last two are at hand.
+pub(crate) struct Lanczos<'a> {
+    links: &'a Links<'a>,
+    /// d.
+    weights: Vec<f64>,
+    before: Block,
+    now: Block,
+    /// α_1, …, α_k.
+    diagonal: Vec<f64>,
+    /// β_1, …, β_k.
+    beside: Vec<f64>,
 }
 
-impl Look {
-    /// Looks from a random vector.
-    ///
-    /// - `scale`: max_i |w_ii|.
-    pub fn new(w: &CouplingMatrix, scale: f64, random: &mut Random) -> Result<Self, SpectraError> {
-        let n_nodes = w.n_nodes();
-        let mut basis = Basis::empty(n_nodes);
-        let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-        let mut next = basis.orthonormalise(random.block(n_nodes, 1))?;
-        while let Some(q) = next.filter(|_| diagonal.len() < STEPS.min(n_nodes)) {
-            basis.append(&q);
-            let image = multiply_block(w.symmetric(), &q);
-            let overlaps = basis.overlaps(&image);
-            diagonal.push(overlaps[(basis.len() - 1, 0)]);
-            let mut rest = image.clone();
-            basis.project_out(&mut rest);
-            beside.push(rest.norms()[0]);
-            next = basis.orthonormalise(image)?;
-        }
-        let steps = diagonal.len();
-        let ritz = symmetric_eigen(steps, |i, j| match i - j {
-            0 => diagonal[i],
-            1 => beside[j],
-            _ => 0.0,
-        })?;
-        let weights = ritz.vectors.iter().map(|y| n_nodes as f64 * y[0] * y[0]);
-        let density: Vec<_> = ritz.values.iter().copied().zip(weights).collect();
-        let low = (density[steps - 1].0 - beside[steps - 1]).max(-2.0 * scale);
-        // Twice the rounding of a product, so that the smallest eigenvalue is inside for certain.
-        Ok(Self { low: low - 1e-12 * scale, density, products: steps })
+impl<'a> Lanczos<'a> {
+    /// A sequence that starts from a unit vector, in the coordinates of S.
+    pub fn from(start: Block, links: &'a Links<'a>) -> Self {
+        let weights = links.scale().par_iter().map(|scale| 1.0 / (scale * scale)).collect();
+        let before = Block::zeros(start.n_rows(), 1);
+        let now = links.to_node_space(start);
+        Self { links, weights, before, now, diagonal: Vec::new(), beside: Vec::new() }
     }
 
-    /// A value that about `count` eigenvalues exceed.
-    pub fn exceeded_by(&self, count: usize) -> f64 {
-        let mut sum = 0.0;
-        let last = self.density[self.density.len() - 1].0;
-        let enough = |&&(_, weight): &&(f64, f64)| {
-            sum += weight;
-            sum >= count as f64
+    /// Steps done.
+    pub fn steps(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    /// β of the last step: how far the vectors so far are from spanning an invariant space.
+    pub fn last_beta(&self) -> f64 {
+        self.beside.last().copied().unwrap_or(0.0)
+    }
+
+    /// The newest vector, in node space, and its norm: x_k is their ratio.
+    pub fn newest(&self) -> (&Block, f64) {
+        (&self.now, self.norm(0))
+    }
+
+    /// The norm in which x_{k−back} is stored: that of its making.
+    fn norm(&self, back: usize) -> f64 {
+        self.steps().checked_sub(1 + back).map_or(1.0, |k| self.beside[k])
+    }
+
+    /// One product; false when β_k is no more than `noise`, and there is no next vector.
+    pub fn step(&mut self, noise: f64) -> bool {
+        let (norm, norm_before) = (self.norm(0), self.norm(1));
+        let previous = -self.last_beta() / norm_before;
+        let step = Step { product: 1.0 / norm, same: 0.0, previous };
+        let (now, before) = (&self.now, &mut self.before);
+        let alpha = self.links.advance_and_weigh(now, before, step, &self.weights) / norm;
+        let beta = self.subtract(alpha / norm);
+        self.diagonal.push(alpha);
+        self.beside.push(beta);
+        std::mem::swap(&mut self.before, &mut self.now);
+        beta > noise
+    }
+
+    /// y − factor · x, where y is in the place of x_{k−1}; returns its norm.
+    fn subtract(&mut self, factor: f64) -> f64 {
+        let chunks = self.before.data_mut().par_chunks_mut(ROWS);
+        let others = self.now.data().par_chunks(ROWS).zip(self.weights.par_chunks(ROWS));
+        let partial = |(y, (x, d)): (&mut [f64], (&[f64], &[f64]))| -> f64 {
+            y.iter_mut().zip(x).for_each(|(y, x)| *y -= factor * x);
+            weighted_sum(d, y, y)
         };
-        self.density.iter().find(enough).map_or(last, |&(value, _)| value)
+        let partials: Vec<f64> = chunks.zip(others).map(partial).collect();
+        partials.iter().sum::<f64>().sqrt()
+    }
+
+    /// Projects vectors out of the last two.
+    pub fn project_out(&mut self, vectors: &Basis) {
+        for block in [&mut self.before, &mut self.now] {
+            self.links.clean(block, |block| vectors.project_out(block));
+        }
+    }
+
+    /// Ritz pairs of the steps so far.
+    pub fn ritz(&self) -> Result<TridiagonalEigen, SpectraError> {
+        tridiagonal_eigen(&self.diagonal, &self.beside[..self.steps() - 1])
     }
 }

@@ -17,13 +17,12 @@
 
 use std::f64::consts::PI;
 
-use graph::CouplingMatrix;
-
 use crate::SpectraError;
-use crate::block::{Basis, Block};
-use crate::chebyshev::{Filter, Interval};
+use crate::block::Block;
+use crate::chebyshev::{Interval, filter_between};
 use crate::dense::symmetric_eigen;
-use crate::product::multiply_block;
+use crate::orthonormal::Basis;
+use crate::product::Links;
 use crate::random::Random;
 
 /// Probes sent at first.
@@ -33,9 +32,9 @@ const MISS: f64 = 1e-6;
 /// Filters that probes pass at most.
 const MOST_FILTERS: usize = 5;
 /// By how much the degree of a filter exceeds what suffices for the θ expected.
-const MARGIN: f64 = 1.1;
+const MARGIN: f64 = 1.03;
 /// A filter may amplify what is left of the modes by this much before they are projected out again.
-const STRETCH_GAIN: f64 = 1e8;
+const STRETCH_GAIN: f64 = 1e12;
 
 /// Where to look for what.
 pub(crate) struct Probe {
@@ -87,8 +86,7 @@ impl Probe {
     /// so far as its c: their gains multiply.
     pub fn send(
         &self,
-        w: &CouplingMatrix,
-        filter: &Filter<'_>,
+        links: &Links<'_>,
         modes: (&Basis, usize),
         random: &mut Random,
     ) -> Result<Probed, SpectraError> {
@@ -111,9 +109,10 @@ impl Probe {
             let stretch = (STRETCH_GAIN.ln() / unwanted.growth(self.top)).clamp(1.0, 1e6) as usize;
             clean(&mut probes_now);
             products += (degree + 1) * probes_now.width();
-            let filtered = filter.apply_between(probes_now, degree, unwanted, stretch, clean);
+            let filtered = filter_between(links, probes_now, degree, unwanted, stretch, clean);
             block = basis.orthonormalise_against_first(n_modes, filtered)?;
-            theta = block.as_ref().map_or(Ok(self.low), |block| largest_ritz_value(w, block))?;
+            theta =
+                block.as_ref().map_or(Ok(self.low), |block| largest_ritz_value(links, block))?;
             passed.push(Passed { unwanted, degree });
             miss = self.log_miss(n_rows, &passed, theta).min(0.0);
             if miss <= enough || theta >= self.limit || passed.len() == MOST_FILTERS {
@@ -152,8 +151,8 @@ impl Probe {
     }
 }
 
-fn largest_ritz_value(w: &CouplingMatrix, block: &Block) -> Result<f64, SpectraError> {
-    let image = multiply_block(w.symmetric(), block);
+fn largest_ritz_value(links: &Links<'_>, block: &Block) -> Result<f64, SpectraError> {
+    let image = links.multiply(block);
     let projected = block.overlaps(&image);
     let pairs =
         symmetric_eigen(block.width(), |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;

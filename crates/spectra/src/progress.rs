@@ -11,5 +11,5 @@ pub struct Advance {
     pub wanted: usize,
 }
 
-/// Called from the thread that asked for the spectrum, whenever a solver has come further.
-pub type Progress<'a> = &'a dyn Fn(Advance);
+/// Called whenever a solver has come further, from whichever thread it works on.
+pub type Progress<'a> = &'a (dyn Fn(Advance) + Sync);

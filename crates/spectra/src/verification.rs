@@ -2,18 +2,22 @@
 
 use graph::CouplingMatrix;
 
-use crate::block::{Basis, Block};
-use crate::chebyshev::Filter;
+use crate::block::Block;
 use crate::factorisation::DENSE_SPEED;
 use crate::factorisation::Symbolic;
 use crate::inertia;
+use crate::orthonormal::Basis;
 use crate::probing::{Probe, Probed};
+use crate::product::Links;
 use crate::random::Random;
 use crate::wanted::Wanted;
 use crate::{SpectraError, Verification};
 
 /// Products that verifying may take whatever the solve took.
 const FREE_PRODUCTS: usize = 2000;
+
+/// By how much δ exceeds the least that it may be.
+const STRICTLY: f64 = 1.01;
 
 /// With less than this, and no products left, completeness is unproven.
 const LEAST_CONFIDENCE: f64 = 0.99;
@@ -57,7 +61,7 @@ pub(crate) struct Outcome {
 pub(crate) struct Verifier<'a> {
     pub w: &'a CouplingMatrix,
     pub symbolic: Option<&'a Symbolic<'a>>,
-    pub filter: &'a Filter<'a>,
+    pub links: &'a Links<'a>,
     /// At most the smallest eigenvalue.
     pub low: f64,
     /// Eigenvalues closer than this are equal.
@@ -77,13 +81,22 @@ impl Verifier<'_> {
             return Ok(Outcome { verification, block: None, products: 0, above: None });
         }
         match self.by_inertia(claim) {
-            Some(outcome) => Ok(outcome),
-            None => self.by_probing(claim, basis, random),
+            Some(count) if count == claim.n_modes => {
+                let verification = Some(Verification::Inertia { count });
+                Ok(Outcome { verification, block: None, products: 0, above: Some(count) })
+            }
+            // Probes find what the count says is missing.
+            Some(count) => {
+                let probes = (count - claim.n_modes).min(Block::WIDEST);
+                let outcome = self.by_probing(claim, probes, basis, random)?;
+                Ok(Outcome { verification: None, above: Some(count), ..outcome })
+            }
+            None => self.by_probing(claim, claim.probes, basis, random),
         }
     }
 
     /// Counts between the last mode and the next; none where the count is not certain.
-    fn by_inertia(&self, claim: &Claim) -> Option<Outcome> {
+    fn by_inertia(&self, claim: &Claim) -> Option<usize> {
         let affordable = FREE_PRODUCTS.max(claim.products_spent) * self.w.symmetric().nnz();
         let symbolic = self.symbolic.filter(|s| s.operations <= DENSE_SPEED * affordable as f64)?;
         let limit = claim.wanted.limit(claim.last, self.grouping);
@@ -92,19 +105,15 @@ impl Verifier<'_> {
         [0.5, 0.37, 0.71].into_iter().find_map(|share| {
             let c = limit - share * (limit - next);
             let count = inertia::count_above(symbolic, c)?;
-            if count.above >= claim.n_modes && count.uncertainty < limit - c {
-                let verification = (count.above == claim.n_modes)
-                    .then_some(Verification::Inertia { count: count.above });
-                let above = Some(count.above);
-                return Some(Outcome { verification, block: None, products: 0, above });
-            }
-            None
+            let certain = count.above >= claim.n_modes && count.uncertainty < limit - c;
+            certain.then_some(count.above)
         })
     }
 
     fn by_probing(
         &self,
         claim: &Claim,
+        probes: usize,
         basis: &Basis,
         random: &mut Random,
     ) -> Result<Outcome, SpectraError> {
@@ -117,11 +126,11 @@ impl Verifier<'_> {
             limit: limit - guards.perturbation,
             top: claim.top,
             max_products: affordable,
-            probes: claim.probes,
+            probes,
         };
         let deflated = (basis, claim.n_modes + guards.count);
         let Probed { block, theta, confidence, products, probes } =
-            probe.send(self.w, self.filter, deflated, random)?;
+            probe.send(self.links, deflated, random)?;
         if confidence < LEAST_CONFIDENCE && products + probes > claim.products_left {
             let requested = claim.wanted.at_least();
             let products = claim.products_spent + products;
@@ -136,36 +145,39 @@ impl Verifier<'_> {
 /// Approximate eigenvectors below the modes that probes need not see: the gap that decides how long
 /// probing takes is then that to the eigenvalues behind them.
 ///
-/// With G the modes and guards, Θ their Ritz values and R = S G − G Θ, which is orthogonal to G, S
-/// differs from the block-diagonal G Θ Gᵀ + (1 − G Gᵀ) S (1 − G Gᵀ) by R Gᵀ + G Rᵀ, whose norm is
-/// ‖R‖. So if the second block has no eigenvalue from limit − ‖R‖ on, S has as many eigenvalues from
-/// there on as Θ (Weyl).
+/// Let G be modes and guards, Θ their Ritz values, R = S G − G Θ, which is orthogonal to G, and B the
+/// rest of S, (1 − G Gᵀ) S (1 − G Gᵀ). If all eigenvalues of B lie below Λ − δ, S − Λ has as many
+/// that are not negative as its Schur complement Θ − Λ + Rᵀ (Λ − B)⁻¹ R (Haynsworth, Linear Algebra
+/// Appl. 1, 73 (1968)), whose last term is at most Rᵀ R / δ. On the guards, with Ritz values θ and
+/// residuals r, it is negative where Σ ‖r‖² / (Λ − θ) < δ, the trace of a product that must have a norm
+/// below 1. Then S has no more eigenvalues from Λ on than there are modes.
 struct Guards {
     count: usize,
-    /// ‖R‖, at most.
+    /// δ.
     perturbation: f64,
-    /// The largest eigenvalue expected behind the guards.
+    /// The largest eigenvalue expected behind the guards: it may lie as close as the last of them.
     next: f64,
 }
 
 impl Guards {
-    /// As many as perturb by no more than a tenth of the gap below the modes.
+    /// As many as leave the widest gap.
     fn new(claim: &Claim, limit: f64) -> Self {
-        let mut guards = Self { count: 0, perturbation: 0.0, next: claim.next };
-        let Some(&(first, _)) = claim.beyond.first() else {
-            return guards;
-        };
-        let allowed = 0.1 * (limit - first);
-        let mut squares = 0.0;
+        let mut best = Self { count: 0, perturbation: 0.0, next: claim.next };
+        let mut sum = 0.0;
         for (k, &(theta, residual)) in claim.beyond.iter().enumerate() {
-            squares += residual * residual;
-            if squares.sqrt() > allowed {
-                guards.next = theta;
+            if theta >= limit {
                 break;
             }
-            let next = claim.beyond.get(k + 1).map_or(theta, |&(next, _)| next);
-            guards = Self { count: k + 1, perturbation: squares.sqrt(), next };
+            sum += residual * residual / (limit - theta);
+            let guards = Self { count: k + 1, perturbation: STRICTLY * sum, next: theta };
+            if guards.gap(limit) > best.gap(limit) {
+                best = guards;
+            }
         }
-        guards
+        best
+    }
+
+    fn gap(&self, limit: f64) -> f64 {
+        limit - self.perturbation - self.next
     }
 }

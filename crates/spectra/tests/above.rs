@@ -181,11 +181,11 @@ fn the_verified_number_is_that_of_the_dense_spectrum_on_networks_of_every_family
 #[test]
 fn progress_tells_products_and_modes_and_never_goes_back() {
     let w = CouplingMatrix::new(&grid(40), Normalization::Laplacian);
-    let calls = std::cell::RefCell::new(Vec::new());
+    let calls = std::sync::Mutex::new(Vec::new());
     let request = with(SolverChoice::Chebyshev, Modes::Leading(6));
     let spectrum =
-        leading_modes_with(&w, &request, &|advance| calls.borrow_mut().push(advance)).unwrap();
-    let calls = calls.into_inner();
+        leading_modes_with(&w, &request, &|advance| calls.lock().unwrap().push(advance)).unwrap();
+    let calls = calls.into_inner().unwrap();
     assert!(calls.len() > 3 && calls.windows(2).all(|pair| pair[0].products < pair[1].products));
     let last = calls[calls.len() - 1];
     assert!(last.products <= spectrum.products && last.wanted <= spectrum.eigenvalues.len());

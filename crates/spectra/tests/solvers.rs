@@ -143,6 +143,22 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
     ]
 }
 
+/// Long sequences run into the bulk here, past modes that have long converged and come back as copies.
+#[test]
+fn the_edge_of_a_bulk_behind_well_separated_modes_is_that_of_the_dense_solver() {
+    let probability = LinkProbability::Uniform { within: 0.1, between: 0.003 };
+    let network = communities(&[150; 6], &probability, 1).unwrap();
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&network, normalization);
+        let all = solve(&w, &dense());
+        for n_modes in [6, 7, 12, 40] {
+            let leading = solve(&w, &chebyshev(n_modes));
+            check_eigenvalues(&leading, &all.eigenvalues, 1e-10 * scale(&w));
+            check_same_eigenspaces(&w, &leading, &all);
+        }
+    }
+}
+
 #[test]
 fn a_repeat_is_identical_to_the_last_bit_whatever_came_before() {
     let fixtures = fixtures();

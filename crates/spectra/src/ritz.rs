@@ -1,0 +1,74 @@
+//! The Rayleigh–Ritz procedure on S in the span of a basis V: Vᵀ S V = Q Θ Qᵀ gives the pairs
+//! (θ, V q), each with its residual.
+//!
+//! Source: Y. Saad, Numerical Methods for Large Eigenvalue Problems (SIAM, 2011), section 4.3.
+
+use faer::Mat;
+use graph::CouplingMatrix;
+
+use crate::SpectraError;
+use crate::basis::Eigenpairs;
+use crate::block::Block;
+use crate::completeness::Found;
+use crate::dense::symmetric_eigen;
+use crate::orthonormal::Basis;
+use crate::product::multiply_block;
+
+/// Ritz pairs of S.
+pub(crate) struct Modes {
+    /// Ritz values, descending.
+    pub values: Vec<f64>,
+    /// Ritz vectors.
+    pub basis: Basis,
+    /// ‖S u − θ u‖ of each.
+    pub residuals: Vec<f64>,
+}
+
+impl Modes {
+    /// Those of a span, with two products a vector.
+    pub fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
+        let n_vectors = basis.len();
+        let images = |basis: &Basis, call: &mut dyn FnMut(usize, &Block, Block)| {
+            for first in (0..n_vectors).step_by(Block::WIDEST) {
+                let count = Block::WIDEST.min(n_vectors - first);
+                let unit = |i, k: usize| if i == first + k { 1.0 } else { 0.0 };
+                let block = basis.combine(Mat::from_fn(n_vectors, count, unit).as_ref());
+                let image = multiply_block(w.symmetric(), &block);
+                call(first, &block, image);
+            }
+        };
+        let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
+        images(&basis, &mut |first, _, image| {
+            let overlaps = basis.overlaps(&image);
+            projected.as_mut().subcols_mut(first, image.width()).copy_from(&overlaps);
+        });
+        let pairs =
+            symmetric_eigen(n_vectors, |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;
+        basis.transform(Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]).as_ref());
+        let mut residuals = Vec::with_capacity(n_vectors);
+        images(&basis, &mut |first, block, mut image| {
+            let minus: Vec<f64> =
+                pairs.values[first..first + block.width()].iter().map(|l| -l).collect();
+            image.add_scaled(block, &minus);
+            residuals.extend(image.norms());
+        });
+        Ok(Self { values: pairs.values, basis, residuals })
+    }
+
+    /// The first vectors, and some of the others.
+    pub fn vectors_from(&self, n_vectors: usize, width: usize) -> (Basis, Option<Block>) {
+        let mut first = Basis::empty(self.basis.n_rows());
+        (0..n_vectors).for_each(|k| first.push(&self.basis.vector(k)));
+        let count = width.min(self.basis.len() - n_vectors);
+        let unit = |i, k: usize| if i == n_vectors + k { 1.0 } else { 0.0 };
+        let rest = Mat::from_fn(self.basis.len(), count, unit);
+        (first, (count > 0).then(|| self.basis.combine(rest.as_ref())))
+    }
+
+    /// The first of them, with the products that they took.
+    pub fn first(mut self, n_modes: usize, products: usize) -> Found {
+        self.values.truncate(n_modes);
+        let vectors = (0..n_modes).map(|k| self.basis.vector(k)).collect();
+        Found { pairs: Eigenpairs { values: self.values, vectors }, products }
+    }
+}
