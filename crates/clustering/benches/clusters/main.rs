@@ -3,6 +3,7 @@
 //! `cargo bench -p clustering`; a name or a part of one after `--` picks some. With a folder in
 //! `EIGENSYNC_FIXTURES` the rows of eigenvectors are written there instead, with the clusters found,
 //! for `benches/peers/clusters.py`; no larger ones than `EIGENSYNC_LARGEST` nodes, if that is set.
+//! With a folder in `EIGENSYNC_FOUND`, `clusters.csv` there gets the number of clusters of each.
 
 mod fixtures;
 
@@ -27,6 +28,10 @@ fn main() -> io::Result<()> {
         for fixture in fixtures::all(n_nodes) {
             let (distance, exact, threshold) = clusters(&fixture);
             assert!(exact.is_refinement_of(&threshold));
+            for (rule, clusters) in [("exact", &exact), ("threshold", &threshold)] {
+                let id = format!("clusters/{}_{rule}/{n_nodes}", fixture.name);
+                note_found(&format!("{id},{}", clusters.n_clusters()))?;
+            }
             let id = |rule: &str| BenchmarkId::new(format!("{}_{rule}", fixture.name), n_nodes);
             group.bench_function(id("exact"), |b| b.iter(|| distance.exact_clusters().unwrap()));
             group.bench_function(id("threshold"), |b| {
@@ -46,6 +51,13 @@ fn clusters(fixture: &Fixture) -> (EigenvectorDistance, Partition, Partition) {
     let exact = distance.exact_clusters().unwrap();
     let threshold = distance.clusters_within(fixture.threshold).unwrap();
     (distance, exact, threshold)
+}
+
+/// Adds a line to what was found, where that is asked for.
+fn note_found(line: &str) -> io::Result<()> {
+    let Some(folder) = env::var_os("EIGENSYNC_FOUND") else { return Ok(()) };
+    let path = Path::new(&folder).join("clusters.csv");
+    writeln!(fs::OpenOptions::new().create(true).append(true).open(path)?, "{line}")
 }
 
 /// Writes `FOLDER/<fixture>_<n>.rows`: N, the number m of modes and of eigenspaces as 64-bit integers;
