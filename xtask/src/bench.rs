@@ -102,7 +102,9 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     let machine_json = serde_json::to_string_pretty(&machine).expect("text and numbers");
     write(&unfinished.join("machine.json"), &format!("{machine_json}\n"))?;
     let place = keep(&unfinished, runs, &machine.folder_name())?;
-    println!("{}", table::markdown(&rows));
+    if !rows.is_empty() {
+        println!("{}", table::markdown(&rows));
+    }
     println!("{}", growth::markdown(&measured).unwrap_or_default());
     println!("{}", table::modes_and_clusters(&place)?.unwrap_or_default());
     println!("{}", place.display());
