@@ -1,7 +1,8 @@
 """Sets up the peers and has them measured: `python3 run.py FIXTURES WORK OUT [options]`.
 
 Makes a virtual environment in WORK with what `requirements.txt` pins, compiles the C++ peers, and
-starts `measure.py` in the environment. What cannot be had here is named with the reason in
+starts `measure.py` in the environment, and, given files of `--leading-modes` and `--clusters`, their
+peers by `large.py`. What cannot be had here is named with the reason in
 OUT/notes.txt. Needs Python 3.11 or later and, for its C++ part and JiTCODE, a C++ compiler.
 """
 
@@ -12,6 +13,8 @@ import subprocess
 import sys
 import venv
 from pathlib import Path
+
+import large
 
 HERE = Path(__file__).resolve().parent
 CPP_OPTIONS = ["-std=c++17", "-O3", "-march=native", "-DNDEBUG"]
@@ -28,19 +31,29 @@ def main():
     arguments.add_argument("--seconds", default="0.3", help="least time of a measurement")
     arguments.add_argument("--repeats", default="5", help="measurements, of which the best counts")
     arguments.add_argument("--only", default="", help="only peers whose file name holds this text")
+    arguments.add_argument("--longest", default="60", help="seconds allowed on a large network")
+    arguments.add_argument("--no-simulation", action="store_true", help="only large networks")
+    arguments.add_argument("--leading-modes", nargs="*", type=Path, default=[], help="networks")
+    arguments.add_argument("--clusters", nargs="*", type=Path, default=[], help="rows of modes")
     options = arguments.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     notes = []
     python = environment(options.work / "venv", notes)
-    peers = compile_all(options.work, notes)
-    if shutil.which("julia") is None:
-        notes.append("DifferentialEquations.jl is not measured: there is no julia here")
-    else:
-        notes.append("DifferentialEquations.jl is not measured: no peer has been written for it")
+    if options.leading_modes:
+        large.leading_modes(options.leading_modes, python, options, notes)
+    if options.clusters:
+        large.clusters(options.clusters, python, options, notes)
+    peers = []
+    if not options.no_simulation:
+        peers = compile_all(options.work, notes)
+        reason = "no peer has been written for it" if shutil.which("julia") else "there is no julia here"
+        notes.append(f"DifferentialEquations.jl is not measured: {reason}")
     with open(options.out / "notes.txt", "a", encoding="utf-8") as file:
         file.writelines(f"{note}\n" for note in notes)
     for note in notes:
         progress(note)
+    if options.no_simulation:
+        sys.exit(0)
     command = [python, HERE / "measure.py", options.fixtures, options.work, options.out, *peers]
     command += ["--core", options.core, "--seconds", options.seconds]
     command += ["--repeats", options.repeats, "--only", options.only]

@@ -6,10 +6,12 @@
 //! - `all.csv`: every benchmark with its mean time and standard error
 //! - `simulation.csv`: node-steps a second of eigensync and, with `--peers`, of the peers
 //! - `growth.csv`: exponents of t ∝ nᵖ where an operation was timed from small to large
+//! - `leading_modes.csv`, `clusters.csv`: seconds of eigensync and, with `--peers`, of the peers
 //! - `peers.csv`, `notes.txt`: errors of the peers, and what could not be measured and why
 
 mod criterion;
 mod growth;
+mod large;
 mod machine;
 mod simulation;
 mod table;
@@ -31,6 +33,9 @@ pub struct Args {
     /// Also measure the tools that people use today (minutes; needs Python and a C++ compiler)
     #[arg(long)]
     peers: bool,
+    /// The largest network that peers find modes and clusters of, in nodes
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    largest: usize,
     /// Seconds instead of minutes: shows that everything runs, not how fast
     #[arg(long)]
     quick: bool,
@@ -73,9 +78,10 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     }
     let fixtures = work.join("fixtures");
     let instruction_set = write_fixtures(&fixtures)?;
-    let measured = run_benchmarks(args, &work.join("criterion"))?;
+    let programs = build_benchmarks()?;
+    let measured = run_benchmarks(args, &programs, &work)?;
     if args.peers {
-        run_peers(args, &fixtures, &work.join("peers"), &unfinished)?;
+        run_peers(args, &programs, &measured, &work, &unfinished)?;
     } else {
         notes.add("the peers were not measured; --peers does")?;
     }
@@ -85,6 +91,9 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     if measured.iter().all(|benchmark| !benchmark.id.starts_with(simulation::PEAK)) {
         notes.add("the peak was not measured, so shares of it are left empty")?;
     }
+    for operation in &large::OPERATIONS {
+        operation.complete(&measured, &ours, &work.join("found"), &unfinished)?;
+    }
     write(&unfinished.join("all.csv"), &criterion::to_csv(&measured))?;
     write(&unfinished.join("simulation.csv"), &simulation::to_csv(&rows))?;
     if let Some(growth) = growth::to_csv(&measured) {
@@ -93,8 +102,11 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     let machine_json = serde_json::to_string_pretty(&machine).expect("text and numbers");
     write(&unfinished.join("machine.json"), &format!("{machine_json}\n"))?;
     let place = keep(&unfinished, runs, &machine.folder_name())?;
-    println!("{}", table::markdown(&rows));
+    if !rows.is_empty() {
+        println!("{}", table::markdown(&rows));
+    }
     println!("{}", growth::markdown(&measured).unwrap_or_default());
+    println!("{}", table::modes_and_clusters(&place)?.unwrap_or_default());
     println!("{}", place.display());
     Ok(0)
 }
@@ -115,8 +127,8 @@ fn write_fixtures(folder: &Path) -> Result<String, String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Builds all benchmarks of the workspace, runs them on one core, and reads what they found.
-fn run_benchmarks(args: &Args, home: &Path) -> Result<Vec<criterion::Benchmark>, String> {
+/// Builds all benchmarks of the workspace.
+fn build_benchmarks() -> Result<Vec<criterion::Program>, String> {
     progress("building the benchmarks");
     let mut build = cargo();
     build.args(["bench", "--workspace", "--bench", "*", "--no-run"]);
@@ -128,12 +140,24 @@ fn run_benchmarks(args: &Args, home: &Path) -> Result<Vec<criterion::Benchmark>,
     if !output.status.success() {
         return Err("the benchmarks could not be built; cargo's own messages are above".into());
     }
-    make_empty(home)?;
-    for program in criterion::programs(&String::from_utf8_lossy(&output.stdout)) {
+    Ok(criterion::programs(&String::from_utf8_lossy(&output.stdout)))
+}
+
+/// Runs the benchmarks on one core and reads how long they took; what they found is in `found/`.
+fn run_benchmarks(
+    args: &Args,
+    programs: &[criterion::Program],
+    work: &Path,
+) -> Result<Vec<criterion::Benchmark>, String> {
+    let (home, found) = (work.join("criterion"), work.join("found"));
+    make_empty(&home)?;
+    make_empty(&found)?;
+    for program in programs {
         progress(&format!("running {}", program.name));
         let mut command = on_core(args.core, &program.executable);
         command.arg("--bench").args(&args.filter).current_dir(&program.package);
-        command.env("CRITERION_HOME", home).env("OPENBLAS_NUM_THREADS", "1");
+        command.env("CRITERION_HOME", &home).env("EIGENSYNC_FOUND", &found);
+        command.env("OPENBLAS_NUM_THREADS", "1").env("RAYON_NUM_THREADS", "1");
         if args.quick {
             command.args(["--warm-up-time", "0.1", "--measurement-time", "0.2"]);
         }
@@ -143,19 +167,42 @@ fn run_benchmarks(args: &Args, home: &Path) -> Result<Vec<criterion::Benchmark>,
             return Err(format!("{} failed; its own messages are above", program.name));
         }
     }
-    criterion::read(home)
+    criterion::read(&home)
 }
 
-fn run_peers(args: &Args, fixtures: &Path, work: &Path, out: &Path) -> Result<(), String> {
+/// Measures the peers on what eigensync was measured on.
+fn run_peers(
+    args: &Args,
+    programs: &[criterion::Program],
+    measured: &[criterion::Benchmark],
+    work: &Path,
+    out: &Path,
+) -> Result<(), String> {
     let python = ["python3", "python"]
         .into_iter()
         .find(|python| Command::new(python).arg("--version").output().is_ok())
         .ok_or("there is no Python here, which the peers need\n\nhint: install Python 3.11 or later, or leave --peers out")?;
+    let fixtures = work.join("fixtures");
     let mut command = Command::new(python);
-    command.arg(root().join("benches/peers/run.py")).args([fixtures, work, out]);
+    command
+        .arg(root().join("benches/peers/run.py"))
+        .args([&fixtures, &work.join("peers")])
+        .arg(out);
     command.arg("--core").arg(args.core.to_string());
+    if !measured.iter().any(|benchmark| benchmark.id.starts_with(simulation::SIMULATE)) {
+        command.arg("--no-simulation");
+    }
+    for operation in &large::OPERATIONS {
+        let option = format!("--{}", operation.name.replace('_', "-"));
+        command.arg(option).args(operation.write_fixtures(
+            measured,
+            programs,
+            args.largest,
+            work,
+        )?);
+    }
     if args.quick {
-        command.args(["--seconds", "0.02", "--repeats", "1"]);
+        command.args(["--seconds", "0.02", "--repeats", "1", "--longest", "20"]);
     }
     match status(&mut command)? {
         0 => Ok(()),

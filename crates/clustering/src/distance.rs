@@ -23,10 +23,10 @@ use std::ops::Range;
 
 use spectra::Spectrum;
 
-use crate::cell_tree::Points;
+use crate::cells::Points;
 use crate::exact::clusters_of_rows;
-use crate::linkage_tree::clusters_within_groups;
 use crate::metric::{Block, Metric};
+use crate::near_pairs::clusters_within_groups;
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition};
 

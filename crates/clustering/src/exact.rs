@@ -8,10 +8,10 @@ use std::ops::Range;
 
 use spectra::Spectrum;
 
-use crate::cell_tree::Points;
+use crate::cells::Points;
 use crate::distance::{chosen_eigenspaces, interleaved};
-use crate::linkage_tree::clusters_within_groups;
 use crate::metric::Metric;
+use crate::near_pairs::clusters_within_groups;
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition};
 

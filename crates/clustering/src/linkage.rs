@@ -32,7 +32,7 @@ const STEPS: usize = 8;
 
 /// [`EigenvectorDistance::clusters_within`] for each of these sets of unstable modes.
 ///
-/// Sets are taken one by one while a tree of cells settles most pairs, as in large networks with few
+/// Sets are taken one by one while cells settle most pairs at once, as in large networks with few
 /// modes, and the rest in one pass once they have cost about half as much as the pass would. For
 /// sets of few runs O(N² (modes + sets)) at most; memory O(N · (modes + sets)). Reports each set.
 ///

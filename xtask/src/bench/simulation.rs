@@ -26,7 +26,8 @@ use super::read;
 /// Benchmarks of the peak: elements are floating-point operations.
 pub const PEAK: &str = "peak/";
 
-const SIMULATE: &str = "simulate/";
+/// Benchmarks of simulations.
+pub const SIMULATE: &str = "simulate/";
 
 /// A line of `simulation.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::simulation::{Row, from_csv};
-use super::{criterion, growth, read, read_if_there, write};
+use super::{criterion, growth, large, read, read_if_there, write};
 use crate::root;
 
 /// Where the table of simulations stands on the page.
@@ -18,6 +18,12 @@ const SIMULATION: [&str; 2] = [
 const GROWTH: [&str; 2] = [
     "<!-- Growth, made by `cargo xtask bench --table`; changes here are lost. -->",
     "<!-- End of the growth that `cargo xtask bench --table` makes. -->",
+];
+
+/// Where the tables of leading modes and of clusters stand.
+const LARGE: [&str; 2] = [
+    "<!-- Modes and clusters, made by `cargo xtask bench --table`; changes here are lost. -->",
+    "<!-- End of the modes and clusters that `cargo xtask bench --table` makes. -->",
 ];
 
 /// Replaces the tables of docs/performance.md by those of a run, the newest unless one is given.
@@ -46,9 +52,24 @@ pub fn update(runs: &Path, run: Option<&Path>) -> Result<u8, String> {
     if let Some(table) = growth::markdown(&benchmarks) {
         page = replace(&page, GROWTH, &with_notes(table))?;
     }
+    if let Some(tables) = modes_and_clusters(&run)? {
+        page = replace(&page, LARGE, &with_notes(tables))?;
+    }
     write(&path, &page)?;
     println!("{}: the tables of {}", path.display(), run.display());
     Ok(0)
+}
+
+/// Tables of the operations on large networks, none where the run has measured none.
+pub fn modes_and_clusters(run: &Path) -> Result<Option<String>, String> {
+    let mut tables = Vec::new();
+    for operation in &large::OPERATIONS {
+        let rows = operation.rows(run)?;
+        if !rows.is_empty() {
+            tables.push(operation.markdown(&rows));
+        }
+    }
+    Ok((!tables.is_empty()).then(|| tables.join("\n")))
 }
 
 /// The run that was measured last.

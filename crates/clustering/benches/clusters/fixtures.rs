@@ -13,22 +13,38 @@ pub struct Fixture {
 }
 
 /// The fixtures with about so many nodes.
-pub fn all(n_nodes: usize) -> [Fixture; 4] {
-    [communities(n_nodes), ring_of_cliques(n_nodes), grid(n_nodes), scale_free(n_nodes)]
+pub fn all(n_nodes: usize) -> [Fixture; 5] {
+    [
+        communities(n_nodes),
+        uneven_communities(n_nodes),
+        ring_of_cliques(n_nodes),
+        grid(n_nodes),
+        scale_free(n_nodes),
+    ]
 }
 
-/// Eight planted communities: seven modes of ±1/√N on whole communities (the Walsh functions) and
-/// normal noise of a tenth of that, which makes eight dense clumps of rows.
+/// Eight planted communities of equal size: seven modes of ±1/√N on whole communities (the Walsh
+/// functions) and normal noise of a tenth of that, which makes eight dense clumps of rows.
 pub fn communities(n_nodes: usize) -> Fixture {
+    Fixture { name: "communities", ..planted(n_nodes, |i| i * 8 / n_nodes) }
+}
+
+/// The same of sizes between a tenth and a fifth of the nodes, so that no median falls between two.
+pub fn uneven_communities(n_nodes: usize) -> Fixture {
+    let community = |i: usize| (8.0 * (i as f64 / n_nodes as f64).powf(1.3)) as usize;
+    Fixture { name: "uneven_communities", ..planted(n_nodes, community) }
+}
+
+fn planted(n_nodes: usize, community: impl Fn(usize) -> usize) -> Fixture {
     let mut random = Random::new(1);
     let sign =
         |community: usize, mode: usize| 1.0 - 2.0 * f64::from((community & mode).count_ones() % 2);
     let modes = (1..8).map(|mode| {
-        let component = |i: usize| sign(i * 8 / n_nodes, mode) + 0.1 * random.normal();
+        let component = |i: usize| sign(community(i), mode) + 0.1 * random.normal();
         (0..n_nodes).map(component).collect()
     });
     let spectrum = spectrum(n_nodes, modes.collect(), &[1; 7]);
-    Fixture { name: "communities", spectrum, threshold: 0.5 / (n_nodes as f64).sqrt() }
+    Fixture { name: "", spectrum, threshold: 0.5 / (n_nodes as f64).sqrt() }
 }
 
 /// Cliques of ten nodes in a ring, N/10 of them: waves around the ring in eigenspaces of two, with

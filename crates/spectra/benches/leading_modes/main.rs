@@ -1,8 +1,11 @@
 //! What leading modes cost from 10³ to 10⁶ nodes: `leading_modes/<fixture>/<n>`, eight modes of the
-//! normalized matrix to a residual of 10⁻¹⁰, the number of them verified.
+//! normalized matrix to a residual of 10⁻¹⁰, the number of them verified; and ten modes of 10⁵ nodes in
+//! communities, `leading_modes/communities_10_modes/100000`.
 //!
 //! `cargo bench -p spectra`; a name or a part of one after `--` picks some. With a folder in
-//! `EIGENSYNC_FIXTURES` the networks are written there instead, for `benches/peers/leading_modes.py`.
+//! `EIGENSYNC_FIXTURES` the networks are written there instead, for `benches/peers/leading_modes.py`;
+//! no larger ones than `EIGENSYNC_LARGEST` nodes, if that is set. With a folder in `EIGENSYNC_FOUND`,
+//! `leading_modes.csv` there gets the products and the largest residual of each.
 
 mod fixtures;
 
@@ -22,8 +25,13 @@ const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
 /// one measurement.
 const ONCE: usize = 1_000_000;
 
+/// Modes asked for, but for the fixture of ten.
+const N_MODES: usize = 8;
+const TEN_MODES: (&str, Builder) = ("communities_10_modes", fixtures::planted);
+const TEN_MODES_SIZE: usize = 100_000;
+
 const REQUEST: Request = Request {
-    modes: Modes::Leading(8),
+    modes: Modes::Leading(N_MODES),
     solver: SolverChoice::Auto,
     tolerance: 1e-10,
     max_products: 200_000,
@@ -34,56 +42,83 @@ const REQUEST: Request = Request {
 
 fn main() -> io::Result<()> {
     if let Some(folder) = env::var_os("EIGENSYNC_FIXTURES") {
-        return write_all(Path::new(&folder));
+        let largest = env::var("EIGENSYNC_LARGEST").ok().and_then(|n| n.parse().ok());
+        return write_all(Path::new(&folder), largest.unwrap_or(usize::MAX));
     }
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("leading_modes");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
-    for n_nodes in SIZES {
-        for fixture in fixtures::ALL {
-            bench(&mut group, fixture, n_nodes);
-        }
+    for (fixture, n_nodes, n_modes) in cases() {
+        bench(&mut group, fixture, n_nodes, n_modes)?;
     }
     group.finish();
     criterion.final_summary();
     Ok(())
 }
 
+/// Every fixture with its size and the number of modes.
+fn cases() -> Vec<((&'static str, Builder), usize, usize)> {
+    let of_all_sizes =
+        SIZES.into_iter().flat_map(|n| fixtures::ALL.map(|fixture| (fixture, n, N_MODES)));
+    of_all_sizes.chain([(TEN_MODES, TEN_MODES_SIZE, 10)]).collect()
+}
+
 /// The matrix is built when its benchmark runs, and not at all when a filter leaves that out.
-fn bench(group: &mut BenchmarkGroup<'_, WallTime>, (name, build): (&str, Builder), n_nodes: usize) {
+fn bench(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    (name, build): (&str, Builder),
+    n_nodes: usize,
+    n_modes: usize,
+) -> io::Result<()> {
     let mut matrix = None;
     let mut measured = None;
+    let mut found = None;
     group.bench_function(BenchmarkId::new(name, n_nodes), |bencher| {
         let w = matrix.get_or_insert_with(|| coupling_matrix(build, n_nodes));
         if n_nodes < ONCE {
-            return bencher.iter(|| solve(w));
+            return bencher.iter(|| found = Some(solve(w, n_modes)));
         }
         let once = *measured.get_or_insert_with(|| {
             let started = Instant::now();
-            black_box(solve(w));
+            found = Some(black_box(solve(w, n_modes)));
             started.elapsed()
         });
         bencher.iter_custom(|n_times| once * n_times as u32);
     });
+    match found {
+        Some(Spectrum { products, residuals, .. }) => {
+            let largest = residuals.iter().copied().fold(0.0, f64::max);
+            note_found(&format!("leading_modes/{name}/{n_nodes},{products},{largest:.1e}"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Adds a line to what was found, where that is asked for.
+fn note_found(line: &str) -> io::Result<()> {
+    let Some(folder) = env::var_os("EIGENSYNC_FOUND") else { return Ok(()) };
+    let path = Path::new(&folder).join("leading_modes.csv");
+    writeln!(fs::OpenOptions::new().create(true).append(true).open(path)?, "{line}")
 }
 
 fn coupling_matrix(build: Builder, n_nodes: usize) -> CouplingMatrix {
     CouplingMatrix::new(&build(n_nodes), Normalization::Normalized)
 }
 
-fn solve(w: &CouplingMatrix) -> Spectrum {
-    let spectrum = leading_modes(w, &REQUEST).expect("the work allowed suffices");
-    assert!(spectrum.eigenvalues.len() >= 8);
+fn solve(w: &CouplingMatrix, n_modes: usize) -> Spectrum {
+    let request = Request { modes: Modes::Leading(n_modes), ..REQUEST };
+    let spectrum = leading_modes(w, &request).expect("the work allowed suffices");
+    assert!(spectrum.eigenvalues.len() >= n_modes);
     spectrum
 }
 
 /// Writes `FOLDER/<fixture>_<n>.csr`: N and the number of entries as 64-bit integers, then row starts
 /// and columns of the adjacency matrix as 32-bit integers, all little-endian; weights are 1.
-fn write_all(folder: &Path) -> io::Result<()> {
+fn write_all(folder: &Path, largest: usize) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    for n_nodes in SIZES {
-        for (name, build) in fixtures::ALL {
+    for ((name, build), n_nodes, _) in cases() {
+        if n_nodes <= largest {
             let network = build(n_nodes);
             let adjacency = network.adjacency();
             let file = fs::File::create(folder.join(format!("{name}_{n_nodes}.csr")))?;

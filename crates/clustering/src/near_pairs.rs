@@ -1,0 +1,429 @@
+//! Single linkage below a threshold without a look at every pair, by dividing the nodes in space.
+//!
+//! A cell of nodes is cut across its longest side. Once both halves are linked within, only those
+//! nodes matter that are near the box around the other half: a strip on either side of the cut. The
+//! strips are cut in turn, and each half meets what is near it of the other strip. Where a strip is
+//! most of its cell, the halves of one cell meet the other cell instead.
+//!
+//! Three observations settle much at once: all nodes of a cell no wider than the threshold are
+//! linked; between nodes of one cluster and nodes of another, one link is enough; and nodes that are
+//! in the other side's one cluster already need no more.
+//!
+//! Few modes take O(N log N) where cells are linked at once or strips are short, as on lines and
+//! surfaces, and a factor log N more in clouds without structure while strips are narrow. Where every
+//! node is within the threshold of some others in a cloud of six or more dimensions, the threshold is
+//! hardly smaller than the cloud for any N of practice, and it comes to O(N²).
+//!
+//! Source: strips and their halves as Bentley & Shamos, Proc. STOC 220 (1976); cells below the
+//! threshold and one link between two of them as Gan & Tao, Proc. SIGMOD 519 (2015), for a grid.
+
+use std::cell::Cell as Shared;
+use std::ops::Range;
+
+use crate::Partition;
+use crate::cells::{Points, Rows};
+use crate::disjoint_sets::DisjointSets;
+use crate::metric::{Bounds, Metric};
+
+/// Most nodes of a cell that is not halved: measured, as the next two, and of no consequence but for
+/// the time.
+const LEAF: usize = 24;
+
+/// Most pairs of nodes of two strips that are looked at one by one.
+const PAIRS: usize = 256;
+
+/// Two cells give strips if these are at most so wide against the cells; otherwise each half of the
+/// larger cell meets the other cell.
+const NARROW: f64 = 0.3;
+
+/// The clusters of single linkage within the groups of nodes of a partition: links lead from one
+/// group to no other.
+///
+/// None if it takes more than `work` components to be looked at.
+pub(crate) fn clusters_within_groups(
+    points: Points,
+    threshold: f64,
+    groups: &Partition,
+    work: &mut usize,
+) -> Option<Partition> {
+    let members = groups.members();
+    let sets = DisjointSets::new(members.nodes.len());
+    let mut linkage = Linkage { metric: points.metric, threshold, sets, work };
+    let mut rows = Rows::new(points.metric.width());
+    for group in members.clusters().filter(|group| group.len() > 1) {
+        rows.restart(group.len());
+        group.iter().for_each(|&node| rows.push(node, points.row(node as usize)));
+        linkage.link_within(&mut rows, 0..group.len());
+    }
+    let is_done = *linkage.work > 0;
+    is_done.then(|| Partition::from_roots(&linkage.sets.roots()))
+}
+
+struct Linkage<'a> {
+    metric: &'a Metric,
+    threshold: f64,
+    sets: DisjointSets,
+    /// How many components may still be looked at.
+    work: &'a mut usize,
+}
+
+/// Places whose nodes are linked within.
+struct Cell {
+    places: Range<usize>,
+    bounds: Bounds,
+    /// Whether all nodes are known to be in one cluster.
+    is_whole: Shared<bool>,
+    /// What it had to be halved into to be linked.
+    halves: Option<Box<[Cell; 2]>>,
+}
+
+/// Nodes that are linked within, to be linked with those of another part.
+struct Part<'a> {
+    rows: &'a Rows,
+    places: Range<usize>,
+    bounds: &'a Bounds,
+    /// The cluster of all nodes, where they are known to be in one.
+    cluster: Option<u32>,
+}
+
+impl Linkage<'_> {
+    /// Links all pairs in some places.
+    fn link_within(&mut self, rows: &mut Rows, places: Range<usize>) -> Cell {
+        self.spend(places.len());
+        let bounds = rows.bounds(places.clone());
+        if self.metric.diameter_up_to(self.threshold, &bounds) <= self.threshold {
+            let nodes = rows.nodes(places.clone());
+            nodes[1..].iter().for_each(|&node| self.sets.join(nodes[0], node));
+            return Cell { places, bounds, is_whole: true.into(), halves: None };
+        }
+        let mut halves = None;
+        if places.len() <= LEAF {
+            for i in places.clone() {
+                (i + 1..places.end).for_each(|j| _ = self.link(rows, i, rows, j));
+            }
+        } else if *self.work > 0 {
+            let middle = rows.halve(places.clone(), self.metric.longest_side(&bounds), &bounds);
+            let left = self.link_within(rows, places.start..middle);
+            let right = self.link_within(rows, middle..places.end);
+            self.link_cells(rows, &left, &right);
+            halves = Some(Box::new([left, right]));
+        }
+        Cell { places, bounds, is_whole: false.into(), halves }
+    }
+
+    /// Links all pairs of two cells.
+    fn link_cells(&mut self, rows: &Rows, a: &Cell, b: &Cell) {
+        let (of_a, of_b) = (self.part(rows, a), self.part(rows, b));
+        if self.are_settled(&of_a, &of_b) {
+            return;
+        }
+        let (small, large) = if a.places.len() < b.places.len() { (a, b) } else { (b, a) };
+        let (column, width) = self.metric.narrowest_overlap(self.threshold, &a.bounds, &b.bounds);
+        match &large.halves {
+            Some(halves) if width > NARROW => {
+                halves.iter().for_each(|half| self.link_cells(rows, small, half));
+            }
+            _ => self.link_strips(&of_a, &of_b, column),
+        }
+    }
+
+    /// Links all pairs of two parts through the nodes of each that may be near some of the other.
+    fn link_strips(&mut self, a: &Part, b: &Part, column: usize) {
+        let one_is_enough = a.cluster.is_some() && b.cluster.is_some();
+        let near_b = self.near(a, b, column);
+        if near_b.len() == 0 {
+            return;
+        }
+        let (a, b) = (near_b, self.near(b, a, column));
+        let (small, mut large) = if a.len() < b.len() { (a, b) } else { (b, a) };
+        if small.len() * large.len() <= PAIRS {
+            return self.link_pairs(&small, &large, one_is_enough);
+        }
+        let around_small = small.bounds(0..small.len());
+        let around_large = large.bounds(0..large.len());
+        let middle =
+            large.halve(0..large.len(), self.metric.longest_side(&around_large), &around_large);
+        for places in [0..middle, middle..large.len()] {
+            let bounds = large.bounds(places.clone());
+            let cluster = self.cluster_of(large.nodes(places.clone()));
+            let half = Part { rows: &large, places, bounds: &bounds, cluster };
+            let (places, cluster) = (0..small.len(), self.cluster_of(small.nodes(0..small.len())));
+            let small = Part { rows: &small, places, bounds: &around_small, cluster };
+            if !self.are_settled(&half, &small) {
+                let (column, _) =
+                    self.metric.narrowest_overlap(self.threshold, &bounds, &around_small);
+                self.link_strips(&half, &small, column);
+            }
+        }
+    }
+
+    /// Links all pairs of two lists of rows, or one.
+    fn link_pairs(&mut self, a: &Rows, b: &Rows, one_is_enough: bool) {
+        for i in 0..a.len() {
+            for j in 0..b.len() {
+                if self.link(a, i, b, j) && one_is_enough {
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Links the nodes in two places if they are near.
+    fn link(&mut self, a: &Rows, i: usize, b: &Rows, j: usize) -> bool {
+        self.spend(1);
+        let distance = self.metric.distance_up_to(self.threshold, a.row(i), b.row(j));
+        let is_near = distance <= self.threshold;
+        if is_near {
+            self.sets.join(a.node(i), b.node(j));
+        }
+        is_near
+    }
+
+    /// Whether two parts are too far apart for a link, or one cluster, if need be by a link of their
+    /// first nodes.
+    fn are_settled(&mut self, a: &Part, b: &Part) -> bool {
+        self.spend(1);
+        let gap = self.metric.gap_up_to(self.threshold, a.bounds, b.bounds);
+        if gap > self.threshold || *self.work == 0 {
+            return true;
+        }
+        a.cluster.zip(b.cluster).is_some_and(|(of_a, of_b)| {
+            of_a == of_b || self.link(a.rows, a.places.start, b.rows, b.places.start)
+        })
+    }
+
+    /// The nodes of a part that may be near some of another and are not known to be in its cluster.
+    fn near(&mut self, part: &Part, other: &Part, column: usize) -> Rows {
+        let Part { rows, places, .. } = part;
+        self.spend(places.len());
+        let Self { metric, threshold, sets, .. } = self;
+        let reach = metric.reach(*threshold, column);
+        let (low, high) = (other.bounds.low[column], other.bounds.high[column]);
+        let mut near = Rows::new(metric.width());
+        for (row, &node) in rows.rows(places.clone()).zip(rows.nodes(places.clone())) {
+            let x = row[column];
+            if low - x <= reach
+                && x - high <= reach
+                && metric.gap_to_row_up_to(*threshold, row, other.bounds) <= *threshold
+                && other.cluster.is_none_or(|cluster| sets.root(node) != cluster)
+            {
+                near.push(node, row);
+            }
+        }
+        near
+    }
+
+    fn part<'a>(&mut self, rows: &'a Rows, cell: &'a Cell) -> Part<'a> {
+        let cluster = self.cluster_of_cell(rows, cell);
+        Part { rows, places: cell.places.clone(), bounds: &cell.bounds, cluster }
+    }
+
+    /// The cluster of a cell whose nodes are all known to be in one: cells become so in time.
+    fn cluster_of_cell(&mut self, rows: &Rows, cell: &Cell) -> Option<u32> {
+        let nodes = rows.nodes(cell.places.clone());
+        let cluster = self.sets.root(nodes[0]);
+        if !cell.is_whole.get() {
+            cell.is_whole.set(match &cell.halves {
+                Some(halves) => {
+                    halves.iter().all(|half| half.is_whole.get())
+                        && self.sets.root(rows.node(halves[1].places.start)) == cluster
+                }
+                None => nodes.iter().all(|&node| self.sets.root(node) == cluster),
+            });
+        }
+        cell.is_whole.get().then_some(cluster)
+    }
+
+    /// The cluster that these nodes are in, if it is one.
+    fn cluster_of(&mut self, nodes: &[u32]) -> Option<u32> {
+        let cluster = self.sets.root(nodes[0]);
+        nodes.iter().all(|&node| self.sets.root(node) == cluster).then_some(cluster)
+    }
+
+    /// Counts the components of this many rows.
+    fn spend(&mut self, n_rows: usize) {
+        *self.work = self.work.saturating_sub(n_rows * self.metric.width());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::metric::Block;
+
+    /// Blocks of these widths and factors.
+    fn metric(blocks: &[(usize, f64)]) -> Metric {
+        let mut end = 0;
+        let block = |&(width, factor): &(usize, f64)| {
+            end += width;
+            Block { columns: end - width..end, factor }
+        };
+        Metric { blocks: blocks.iter().map(block).collect() }
+    }
+
+    fn clusters(points: Points, threshold: f64, groups: &Partition) -> Partition {
+        clusters_within_groups(points, threshold, groups, &mut { usize::MAX }).unwrap()
+    }
+
+    fn all_pairs(points: Points, threshold: f64, groups: &Partition) -> Partition {
+        let group = groups.cluster_of();
+        let distance = |i: usize, j: usize| match group[i] == group[j] {
+            true => points.metric.distance_up_to(f64::INFINITY, points.row(i), points.row(j)),
+            false => f64::INFINITY,
+        };
+        Partition::single_linkage(groups.n_nodes(), distance, threshold)
+    }
+
+    fn blocks() -> impl Strategy<Value = Metric> {
+        prop::collection::vec((1usize..4, 0.01..2.0), 1..5).prop_map(|blocks| metric(&blocks))
+    }
+
+    /// Points of no structure, on a lattice (where distances tie), or in a few clumps.
+    fn component(kind: u8, (place, clump): (f64, u8)) -> f64 {
+        match kind {
+            0 => place,
+            1 => (10.0 * place).round() / 10.0,
+            _ => f64::from(clump) + 0.01 * place,
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_tree_links_as_all_pairs_do(
+            n_nodes in 1usize..200,
+            metric in blocks(),
+            kind in 0u8..3,
+            places in prop::collection::vec((-1.0..1.0, 0u8..3), 400),
+            groups in prop::collection::vec(0usize..3, 200),
+            threshold in prop::sample::select(vec![0.0, 0.001, 0.01, 0.1, 0.2, 0.5, 1.0, 3.0]),
+        ) {
+            let components = places.into_iter().cycle().map(|place| component(kind, place));
+            let rows: Vec<f64> = components.take(n_nodes * metric.width()).collect();
+            let points = Points { rows: &rows, metric: &metric };
+            let groups = Partition::from_marks(&groups[..n_nodes]);
+            for groups in [Partition::one_cluster(n_nodes), groups] {
+                let expected = all_pairs(points, threshold, &groups);
+                prop_assert_eq!(clusters(points, threshold, &groups), expected);
+            }
+        }
+
+        #[test]
+        fn boxes_promise_no_more_than_rounded_distances_keep(
+            metric in blocks(),
+            places in prop::collection::vec(-1.0..1.0, 6 * 12),
+            threshold in 0.0..3.0,
+        ) {
+            let width = metric.width();
+            let rows: Vec<&[f64]> = places.chunks(width).take(6).collect();
+            let bounds = |rows: &[&[f64]]| {
+                let mut bounds = Bounds::of_row(rows[0]);
+                rows.iter().for_each(|row| bounds.include(row));
+                bounds
+            };
+            let (a, b) = (bounds(&rows[..3]), bounds(&rows[3..]));
+            let gap = metric.gap_up_to(f64::INFINITY, &a, &b);
+            let diameter = metric.diameter_up_to(f64::INFINITY, &a);
+            for x in &rows[..3] {
+                let to_row = metric.gap_to_row_up_to(f64::INFINITY, x, &b);
+                for y in &rows[3..] {
+                    let distance = metric.distance_up_to(f64::INFINITY, x, y);
+                    prop_assert!(gap <= to_row && to_row <= distance);
+                }
+                for y in &rows[..3] {
+                    prop_assert!(metric.distance_up_to(f64::INFINITY, x, y) <= diameter);
+                }
+            }
+            prop_assert_eq!(gap <= threshold, metric.gap_up_to(threshold, &a, &b) <= threshold);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        // Enough nodes for strips to be halved several times.
+        #[test]
+        fn strips_link_as_all_pairs_do(
+            n_nodes in 400usize..900,
+            dimension in 1usize..9,
+            kind in 0u8..3,
+            places in prop::collection::vec((-1.0..1.0, 0u8..3), 7919),
+            reach in prop::sample::select(vec![0.01, 0.05, 0.1, 0.2, 0.3, 0.4]),
+        ) {
+            let metric = metric(&vec![(1, 1.0 / dimension as f64); dimension]);
+            let components = places.into_iter().cycle().map(|place| component(kind, place));
+            let rows: Vec<f64> = components.take(n_nodes * dimension).collect();
+            let points = Points { rows: &rows, metric: &metric };
+            let groups = Partition::one_cluster(n_nodes);
+            for threshold in [reach, 0.1 * reach] {
+                let expected = all_pairs(points, threshold, &groups);
+                prop_assert_eq!(clusters(points, threshold, &groups), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn many_equal_rows_meet_many_others() {
+        // Nodes of a line within the threshold of a point of 500 nodes, one step apart from one
+        // another where that is more than the threshold.
+        let line = |i: u32| [f64::from(i) * 0.004, 1.0];
+        let rows: Vec<f64> =
+            (0..1000).flat_map(|i| if i < 500 { [1.0, 0.0] } else { line(i - 500) }).collect();
+        let metric = metric(&[(1, 1.0), (1, 1.0)]);
+        let points = Points { rows: &rows, metric: &metric };
+        let groups = Partition::one_cluster(1000);
+        for threshold in [0.003, 0.0041, 0.999, 1.0, 1.001, 1.5, 2.0] {
+            let expected = all_pairs(points, threshold, &groups);
+            assert_eq!(clusters(points, threshold, &groups), expected, "{threshold}");
+        }
+    }
+
+    /// How many components are looked at for nodes at these places in the plane.
+    fn work(n_nodes: usize, place: impl Fn(usize) -> [f64; 2], threshold: f64) -> usize {
+        let rows: Vec<f64> = (0..n_nodes).flat_map(place).collect();
+        let mut left = usize::MAX;
+        let metric = metric(&[(1, 1.0), (1, 1.0)]);
+        let points = Points { rows: &rows, metric: &metric };
+        let groups = Partition::one_cluster(n_nodes);
+        clusters_within_groups(points, threshold, &groups, &mut left).unwrap();
+        usize::MAX - left
+    }
+
+    /// Numbers in [0, 1) without a pattern that the tree could meet.
+    fn scattered(i: usize, multiplier: f64) -> f64 {
+        (i as f64 * multiplier).fract()
+    }
+
+    #[test]
+    fn sixteen_times_the_nodes_are_at_most_thirty_times_the_work() {
+        // N log N grows by a factor of 16 · (log 64,000 / log 4,000) < 22.
+        let (golden, silver) = (0.618_033_988_749_895, 0.414_213_562_373_095);
+        let plane = |i: usize| [scattered(i, golden), scattered(i, silver)];
+        let clumps = |i: usize| plane(i).map(|x| f64::from((i % 8) as u32) + 0.01 * x);
+        let growth = |small: usize, large: usize| large as f64 / small as f64;
+        let (few, many) = (4_000, 64_000);
+        for threshold in [0.0, 0.001, 0.01, 0.1, 3.0] {
+            let grown = growth(work(few, clumps, threshold), work(many, clumps, threshold));
+            assert!(grown < 30.0, "clumps at {threshold}: {grown}");
+        }
+        for reach in [0.1, 1.0, 3.0, 10.0] {
+            let threshold = |n: usize| reach / (n as f64).sqrt();
+            let grown =
+                growth(work(few, plane, threshold(few)), work(many, plane, threshold(many)));
+            assert!(grown < 30.0, "plane at {reach} steps: {grown}");
+        }
+    }
+
+    #[test]
+    fn too_much_work_has_no_answer() {
+        let rows: Vec<f64> = (0..100).map(f64::from).collect();
+        let metric = metric(&[(1, 1.0)]);
+        let points = Points { rows: &rows, metric: &metric };
+        let groups = Partition::one_cluster(100);
+        assert_eq!(clusters_within_groups(points, 0.5, &groups, &mut 150), None);
+        let mut work = 10_000;
+        assert!(clusters_within_groups(points, 0.5, &groups, &mut work).is_some());
+        assert!(0 < work && work < 9_900);
+    }
+}
