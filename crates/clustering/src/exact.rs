@@ -1,8 +1,8 @@
 //! Exact clusters: nodes whose rows of components agree in the unstable subspace up to a tolerance.
 //!
 //! Equality up to a tolerance is single linkage of ‖P(e_i − e_j)‖₂, which does not depend on the
-//! bases of eigenspaces and knows no boundaries of rounding. Sorting along one coordinate tells most
-//! rows apart; only rows without a gap between them there are compared, by a tree.
+//! bases of eigenspaces and knows no boundaries of rounding. Sorting along two coordinates tells most
+//! rows apart; only rows without a gap between them there are compared.
 
 use std::ops::Range;
 
@@ -26,8 +26,8 @@ pub(crate) fn clusters_of_rows(
     if width == 0 {
         return groups.clone();
     }
-    let (coordinate, window) = coordinate(rows, width, tolerance);
-    let runs = groups.cut_at_gaps(&coordinate, window);
+    let ([first, second], window) = coordinates(rows, width, tolerance);
+    let runs = groups.cut_at_gaps([&first, &second], window);
     let points = Points { rows, metric: &Metric::euclidean(width) };
     clusters_within_groups(points, tolerance, &runs, &mut { usize::MAX })
         .expect("no limit to the work")
@@ -68,14 +68,20 @@ pub(crate) fn refined_clusters(
     Ok(Partition::from_roots(&roots))
 }
 
-/// One coordinate of every row, and how much it may differ between rows within the tolerance.
+/// Two coordinates of every row, and how much they may differ between rows within the tolerance.
 ///
-/// It is the component along (1, 1, …)/√width, which never exceeds the norm but for the rounding of
-/// its sum.
-fn coordinate(rows: &[f64], width: usize, tolerance: f64) -> (Vec<f64>, f64) {
+/// They are the components along (1, 1, 1, …)/√width and (1, −1, 1, …)/√width, which never exceed the
+/// norm but for the rounding of their sums. Among many rows the first alone has neighbours by chance.
+fn coordinates(rows: &[f64], width: usize, tolerance: f64) -> ([Vec<f64>; 2], f64) {
     let n = width as f64;
-    let coordinate = rows.chunks_exact(width).map(|row| row.iter().sum::<f64>() / n.sqrt());
-    let magnitude = |row: &[f64]| row.iter().map(|x| x.abs()).sum::<f64>();
-    let largest = rows.chunks_exact(width).map(magnitude).fold(tolerance, f64::max);
-    (coordinate.collect(), tolerance + 4.0 * (n + 1.0) * f64::EPSILON * largest)
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    let mut largest = tolerance;
+    for row in rows.chunks_exact(width) {
+        let sum_from = |start: usize| row.iter().skip(start).step_by(2).sum::<f64>();
+        let (even, odd) = (sum_from(0), sum_from(1));
+        first.push((even + odd) / n.sqrt());
+        second.push((even - odd) / n.sqrt());
+        largest = largest.max(row.iter().map(|x| x.abs()).sum());
+    }
+    ([first, second], tolerance + 4.0 * (n + 1.0) * f64::EPSILON * largest)
 }

@@ -51,6 +51,10 @@ pub(crate) fn clusters_within_groups(
     let mut linkage = Linkage { metric: points.metric, threshold, sets, work };
     let mut rows = Rows::new(points.metric.width());
     for group in members.clusters().filter(|group| group.len() > 1) {
+        if group.len() <= LEAF {
+            linkage.link_all(points, group);
+            continue;
+        }
         rows.restart(group.len());
         group.iter().for_each(|&node| rows.push(node, points.row(node as usize)));
         linkage.link_within(&mut rows, 0..group.len());
@@ -87,6 +91,19 @@ struct Part<'a> {
 }
 
 impl Linkage<'_> {
+    /// Links all pairs of a few nodes.
+    fn link_all(&mut self, points: Points, nodes: &[u32]) {
+        for (k, &i) in nodes.iter().enumerate() {
+            self.spend(nodes.len() - k);
+            for &j in &nodes[k + 1..] {
+                let (a, b) = (points.row(i as usize), points.row(j as usize));
+                if self.metric.distance_up_to(self.threshold, a, b) <= self.threshold {
+                    self.sets.join(i, j);
+                }
+            }
+        }
+    }
+
     /// Links all pairs in some places.
     fn link_within(&mut self, rows: &mut Rows, places: Range<usize>) -> Cell {
         self.spend(places.len());

@@ -71,7 +71,7 @@ impl Partition {
 
     /// All nodes in one cluster.
     pub fn one_cluster(n_nodes: usize) -> Self {
-        Self::from_marks(&vec![0; n_nodes])
+        Self { cluster_of: vec![0; n_nodes], n_clusters: n_nodes.min(1) }
     }
 
     /// Every node a cluster of its own.
@@ -100,18 +100,30 @@ impl Partition {
         Self::from_roots(&sets.roots())
     }
 
-    /// Every cluster cut wherever the coordinates of its nodes, in ascending order, leave a gap
-    /// wider than `window`. O(N log N).
-    pub(crate) fn cut_at_gaps(&self, coordinate: &[f64], window: f64) -> Self {
-        let mut places: Vec<(usize, f64, u32)> = (0..)
+    /// Every cluster cut wherever one coordinate of its nodes, in ascending order, leaves a gap wider
+    /// than `window`, and then wherever the other does. O(N log N).
+    pub(crate) fn cut_at_gaps(&self, coordinates: [&[f64]; 2], window: f64) -> Self {
+        let [first, second] = coordinates;
+        // Whole numbers in the order of the coordinates: those are faster to sort.
+        let mut places: Vec<(u32, i64, u32)> = (0..)
             .zip(&self.cluster_of)
-            .zip(coordinate)
-            .map(|((node, &c), &x)| (c, x, node))
+            .zip(first)
+            .map(|((node, &c), &x)| (c as u32, ordered(x), node))
             .collect();
-        places.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let mut roots = vec![0; places.len()];
-        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= window) {
-            run.iter().for_each(|place| roots[place.2 as usize] = run[0].2);
+        places.sort_unstable();
+        let is_near = |a: i64, b: i64| from_ordered(b) - from_ordered(a) <= window;
+        let mut roots: Vec<u32> = (0..).take(places.len()).collect();
+        for run in places.chunk_by_mut(|a, b| a.0 == b.0 && is_near(a.1, b.1)) {
+            if run.len() == 1 {
+                continue;
+            }
+            for place in &mut *run {
+                place.1 = ordered(second[place.2 as usize]);
+            }
+            run.sort_unstable();
+            for run in run.chunk_by(|a, b| is_near(a.1, b.1)) {
+                run.iter().for_each(|place| roots[place.2 as usize] = run[0].2);
+            }
         }
         Self::from_roots(&roots)
     }
@@ -209,4 +221,14 @@ impl Members {
     pub(crate) fn clusters(&self) -> impl Iterator<Item = &[u32]> {
         self.starts.windows(2).map(|ends| &self.nodes[ends[0] as usize..ends[1] as usize])
     }
+}
+/// A whole number in whose order numbers have that of [`f64::total_cmp`].
+fn ordered(x: f64) -> i64 {
+    let bits = x.to_bits() as i64;
+    bits ^ (((bits >> 63) as u64) >> 1) as i64
+}
+
+/// The inverse of [`ordered`].
+fn from_ordered(key: i64) -> f64 {
+    f64::from_bits((key ^ (((key >> 63) as u64) >> 1) as i64) as u64)
 }
