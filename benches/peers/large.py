@@ -1,7 +1,7 @@
 """Runs the peers of leading modes and of clusters on large networks, for `run.py`.
 
-Each peer has a process of its own for every fixture, on one core and with one thread; one that takes
-longer than allowed is stopped and named in the notes. OUT/leading_modes.csv and OUT/clusters.csv get
+Each peer has a process of its own for every fixture, with the whole processor for leading modes, on
+one core and with one thread for clusters, as eigensync has; one that takes longer than allowed is stopped and named in the notes. OUT/leading_modes.csv and OUT/clusters.csv get
 their rows.
 """
 
@@ -50,15 +50,17 @@ def clusters(files, python, options, notes):
         for peer in CLUSTERS_PEERS:
             command = [python, HERE / "clusters.py", file, "--only", peer]
             command += ["--seconds", options.longest]
-            rows += measure(command, {}, file, peer, options, notes)
+            core = int(options.core)
+            rows += measure(command, ONE_THREAD, file, peer, options, notes, core)
     write(options.out / "clusters.csv", "fixture,implementation,seconds,clusters", rows)
 
 
-def measure(command, environment, file, peer, options, notes):
+def measure(command, environment, file, peer, options, notes, core=None):
     """The rows that a peer prints, without their head; what it has to say goes to the notes."""
     print(f"peers: {peer} on {file.stem}", file=sys.stderr, flush=True)
-    core, longest = int(options.core), float(options.longest) + 30.0
-    on_core = lambda: hasattr(os, "sched_setaffinity") and os.sched_setaffinity(0, {core})
+    longest = float(options.longest) + 30.0
+    may_pin = core is not None and hasattr(os, "sched_setaffinity")
+    on_core = lambda: may_pin and os.sched_setaffinity(0, {core})
     try:
         done = subprocess.run(
             command,
@@ -67,7 +69,7 @@ def measure(command, environment, file, peer, options, notes):
             check=False,
             timeout=longest,
             preexec_fn=on_core,
-            env=os.environ | ONE_THREAD | {"PYTHONDONTWRITEBYTECODE": "1"} | environment,
+            env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"} | environment,
         )
     except subprocess.TimeoutExpired:
         notes.append(f"{file.stem}: {peer}: takes longer than {longest:g} s")

@@ -22,6 +22,8 @@ pub struct Operation {
     /// How the names of its fixtures end.
     extension: &'static str,
     title: &'static str,
+    /// Whether the processor is free to use, to eigensync and to peers; one core otherwise.
+    pub on_all_cores: bool,
 }
 
 pub const OPERATIONS: [Operation; 2] = [
@@ -30,12 +32,14 @@ pub const OPERATIONS: [Operation; 2] = [
         found: "products,residual",
         extension: "csr",
         title: "Leading modes, seconds",
+        on_all_cores: true,
     },
     Operation {
         name: "clusters",
         found: "clusters",
         extension: "rows",
         title: "Clusters of given modes, seconds",
+        on_all_cores: false,
     },
 ];
 
