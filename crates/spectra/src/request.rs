@@ -42,7 +42,7 @@ pub enum SolverChoice {
     Dense,
     /// ARPACK: at most N − 1 modes.
     Arpack,
-    /// A block method with Chebyshev filters, for any network.
+    /// Long Lanczos sequences, and blocks with Chebyshev filters, for any network.
     Chebyshev,
     /// The block method on a factorised μ − S; refused where the factor would be too large.
     ShiftInvert,

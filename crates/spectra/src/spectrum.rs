@@ -9,7 +9,7 @@ pub enum Solver {
     Dense,
     /// Leading modes by ARPACK's implicitly restarted Lanczos method.
     Arpack,
-    /// Leading modes by a block method whose search directions pass a Chebyshev filter.
+    /// Leading modes by long Lanczos sequences and blocks that pass a Chebyshev filter.
     Chebyshev,
     /// Leading modes by the same block method with directions (μ − S)⁻¹ u from a sparse factorisation.
     ShiftInvert,
