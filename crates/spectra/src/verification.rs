@@ -13,13 +13,15 @@ use crate::random::Random;
 use crate::wanted::Wanted;
 use crate::{SpectraError, Verification};
 
-/// Products that verifying may take whatever the solve took.
+/// Products that a factorisation may be worth whatever the solve took.
 const FREE_PRODUCTS: usize = 2000;
+/// Products that probing may take whatever the solve took.
+const FREE_PROBING: usize = 20_000;
 
 /// By how much δ exceeds the least that it may be.
 const STRICTLY: f64 = 1.01;
 
-/// With less than this, and no products left, completeness is unproven.
+/// With less than this completeness is unproven.
 const LEAST_CONFIDENCE: f64 = 0.99;
 
 /// What is to be verified.
@@ -117,7 +119,7 @@ impl Verifier<'_> {
         basis: &Basis,
         random: &mut Random,
     ) -> Result<Outcome, SpectraError> {
-        let affordable = claim.products_left.min(FREE_PRODUCTS.max(claim.products_spent));
+        let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
         let limit = claim.wanted.limit(claim.last, self.grouping);
         let guards = Guards::new(claim, limit);
         let probe = Probe {
@@ -131,13 +133,17 @@ impl Verifier<'_> {
         let deflated = (basis, claim.n_modes + guards.count);
         let Probed { block, theta, confidence, products, probes } =
             probe.send(self.links, deflated, random)?;
-        if confidence < LEAST_CONFIDENCE && products + probes > claim.products_left {
+        let found_more = theta > claim.wanted.missing_from(claim.last, self.grouping);
+        let is_proven = confidence >= LEAST_CONFIDENCE;
+        let is_last_try = claim.probes >= Block::WIDEST || products + probes > claim.products_left;
+        if !found_more && !is_proven && is_last_try {
             let requested = claim.wanted.at_least();
             let products = claim.products_spent + products;
             return Err(SpectraError::CompletenessUnproven { requested, products });
         }
-        let found_more = theta > claim.wanted.missing_from(claim.last, self.grouping);
-        let verification = (!found_more).then_some(Verification::Probed { probes, confidence });
+        // What is neither proven nor missing lies next to the limit: more vectors there settle it.
+        let verification =
+            (!found_more && is_proven).then_some(Verification::Probed { probes, confidence });
         Ok(Outcome { verification, block, products, above: None })
     }
 }
@@ -155,7 +161,7 @@ struct Guards {
     count: usize,
     /// δ.
     perturbation: f64,
-    /// The largest eigenvalue expected behind the guards: it may lie as close as the last of them.
+    /// The largest eigenvalue expected behind the guards.
     next: f64,
 }
 
@@ -169,7 +175,10 @@ impl Guards {
                 break;
             }
             sum += residual * residual / (limit - theta);
-            let guards = Self { count: k + 1, perturbation: STRICTLY * sum, next: theta };
+            // A Ritz value that has hardly converged says little of what lies behind it.
+            let behind = |&(next, residual): &(f64, f64)| f64::min(next + residual, theta);
+            let next = claim.beyond.get(k + 1).map_or(theta, behind);
+            let guards = Self { count: k + 1, perturbation: STRICTLY * sum, next };
             if guards.gap(limit) > best.gap(limit) {
                 best = guards;
             }

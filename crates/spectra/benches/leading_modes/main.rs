@@ -58,10 +58,15 @@ fn main() -> io::Result<()> {
 }
 
 /// Every fixture with its size and the number of modes.
+///
+/// Without the ring of 10⁵ cliques: its leading eigenvalues are closer to one another than rounding
+/// lets anyone count, and are refused as unproven.
 fn cases() -> Vec<((&'static str, Builder), usize, usize)> {
     let of_all_sizes =
         SIZES.into_iter().flat_map(|n| fixtures::ALL.map(|fixture| (fixture, n, N_MODES)));
-    of_all_sizes.chain([(TEN_MODES, TEN_MODES_SIZE, 10)]).collect()
+    let countable =
+        of_all_sizes.filter(|((name, _), n, _)| (*name, *n) != ("ring_of_cliques", ONCE));
+    countable.chain([(TEN_MODES, TEN_MODES_SIZE, 10)]).collect()
 }
 
 /// The matrix is built when its benchmark runs, and not at all when a filter leaves that out.
