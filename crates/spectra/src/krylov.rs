@@ -70,6 +70,8 @@ pub(crate) struct Search<'a> {
     n_settled: usize,
     /// How many eigenvalues a count has shown to be there.
     at_least: usize,
+    /// Random vectors of the next verification: more each time that one has found something.
+    probes: usize,
 }
 
 /// Ritz values of the inverse, descending, their residuals, and their coordinates in V.
@@ -108,6 +110,7 @@ impl<'a> Search<'a> {
             strictness: STRICTNESS,
             n_settled: 0,
             at_least: 0,
+            probes: FIRST_PROBES,
         };
         search.enter_random(WIDTH)?;
         Ok(search)
@@ -289,7 +292,16 @@ impl<'a> Search<'a> {
             return self.lock(&modes).map(|()| None);
         }
         let Some(present) = self.next.as_ref().map(Block::width) else {
-            return Ok(Some((modes.first(n_modes, self.products), Verification::Dense)));
+            // All modes are at hand. H is too rough to tell which are equal, their values are not.
+            let all =
+                self.plan.wanted.complete(&modes.values, f64::NEG_INFINITY, self.plan.grouping);
+            let is_whole = modes.values.len() == self.basis.n_rows();
+            return match all.filter(|&n_modes| is_whole && n_modes <= n_accurate) {
+                Some(n_modes) => {
+                    Ok(Some((modes.first(n_modes, self.products), Verification::Dense)))
+                }
+                None => self.lock(&modes).map(|()| None),
+            };
         };
         let claim = Claim {
             n_modes,
@@ -300,8 +312,9 @@ impl<'a> Search<'a> {
             beyond: Vec::new(),
             products_left: self.plan.max_products.saturating_sub(self.products),
             products_spent: self.products,
-            probes: FIRST_PROBES,
+            probes: self.probes,
         };
+        self.probes = (2 * self.probes).min(Block::WIDEST);
         let outcome = verifier.verify(&claim, &modes.basis, &mut self.random)?;
         self.products += outcome.products;
         if let Some(verification) = outcome.verification {

@@ -31,9 +31,9 @@ pub(crate) const FIRST_PROBES: usize = 2;
 const MISS: f64 = 1e-6;
 /// Filters that probes pass at most.
 const MOST_FILTERS: usize = 5;
-/// Gap below Λ, as a share of the spectrum, that the first filter takes for granted: what is expected
-/// nearer may be a bound that says little.
-const LEAST_GAP: f64 = 1e-3;
+/// Degree of a first filter where no affordable one would prove anything: the probes may still show
+/// what is in the way.
+const HOPELESS: usize = 100;
 /// By how much the degree of a filter exceeds what suffices for the θ expected.
 const MARGIN: f64 = 1.03;
 /// A filter may amplify what is left of the modes by this much before they are projected out again.
@@ -99,14 +99,13 @@ impl Probe {
         let enough = MISS.ln() / probes as f64;
         let clean = |block: &mut Block| basis.project_out_first(n_modes, block);
         let mut passed = Vec::new();
-        let first = self.limit - LEAST_GAP * (self.limit - self.low);
-        let (mut theta, mut products, mut miss) = (self.expected.min(first), 0, 0.0);
+        let (mut theta, mut products, mut miss) = (self.expected, 0, 0.0);
         let mut block = Some(random.block(n_rows, probes));
         while let Some(mut probes_now) = block.take() {
             let unwanted = self.unwanted(theta);
             let most = self.max_products.saturating_sub(products) / probes_now.width();
             let needed = self.degree(n_rows, &passed, unwanted, enough);
-            let degree = needed.min(most);
+            let degree = if needed <= most { needed } else { most.min(HOPELESS) };
             if degree == 0 || (needed > most && !passed.is_empty()) {
                 block = Some(probes_now);
                 break;

@@ -21,6 +21,9 @@ const FREE_PROBING: usize = 20_000;
 /// By how much δ exceeds the least that it may be.
 const STRICTLY: f64 = 1.01;
 
+/// The largest residual of a guard, as a share of its distance to the limit.
+const CONVERGED: f64 = 0.4;
+
 /// With less than this completeness is unproven.
 const LEAST_CONFIDENCE: f64 = 0.99;
 
@@ -112,6 +115,8 @@ impl Verifier<'_> {
         })
     }
 
+    /// With guards first; where what the probes show lies between what is asked of them and what would
+    /// be a missing mode, without.
     fn by_probing(
         &self,
         claim: &Claim,
@@ -119,31 +124,39 @@ impl Verifier<'_> {
         basis: &Basis,
         random: &mut Random,
     ) -> Result<Outcome, SpectraError> {
-        let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
         let limit = claim.wanted.limit(claim.last, self.grouping);
-        let guards = Guards::new(claim, limit);
-        let probe = Probe {
-            low: self.low,
-            expected: guards.next.max(self.low),
-            limit: limit - guards.perturbation,
-            top: claim.top,
-            max_products: affordable,
-            probes,
+        let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
+        let send = |guards: &Guards, max_products: usize, random: &mut Random| {
+            let probe = Probe {
+                low: self.low,
+                expected: guards.next.max(self.low),
+                limit: limit - guards.perturbation,
+                top: claim.top,
+                max_products,
+                probes,
+            };
+            probe.send(self.links, (basis, claim.n_modes + guards.count), random)
         };
-        let deflated = (basis, claim.n_modes + guards.count);
-        let Probed { block, theta, confidence, products, probes } =
-            probe.send(self.links, deflated, random)?;
-        let found_more = theta > claim.wanted.missing_from(claim.last, self.grouping);
-        let is_proven = confidence >= LEAST_CONFIDENCE;
-        let is_last_try = claim.probes >= Block::WIDEST || products + probes > claim.products_left;
-        if !found_more && !is_proven && is_last_try {
-            let requested = claim.wanted.at_least();
-            let products = claim.products_spent + products;
-            return Err(SpectraError::CompletenessUnproven { requested, products });
+        let is_missing = |theta| theta > claim.wanted.missing_from(claim.last, self.grouping);
+        let is_open =
+            |probed: &Probed| probed.confidence < LEAST_CONFIDENCE && !is_missing(probed.theta);
+        let guards = Guards::new(claim, limit);
+        let mut probed = send(&guards, affordable, random)?;
+        if guards.count > 0 && is_open(&probed) {
+            let spent = probed.products;
+            probed = send(&Guards::none(claim), affordable.saturating_sub(spent), random)?;
+            probed.products += spent;
         }
+        if is_open(&probed) && (probed.block.is_none() || claim.probes >= Block::WIDEST) {
+            return Err(SpectraError::CompletenessUnproven {
+                requested: claim.wanted.at_least(),
+                products: claim.products_spent + probed.products,
+            });
+        }
+        let is_proven = !is_open(&probed) && !is_missing(probed.theta);
+        let Probed { block, confidence, products, probes, .. } = probed;
         // What is neither proven nor missing lies next to the limit: more vectors there settle it.
-        let verification =
-            (!found_more && is_proven).then_some(Verification::Probed { probes, confidence });
+        let verification = is_proven.then_some(Verification::Probed { probes, confidence });
         Ok(Outcome { verification, block, products, above: None })
     }
 }
@@ -166,12 +179,16 @@ struct Guards {
 }
 
 impl Guards {
-    /// As many as leave the widest gap.
+    fn none(claim: &Claim) -> Self {
+        Self { count: 0, perturbation: 0.0, next: claim.next }
+    }
+
+    /// As many as leave the widest gap, of those that have converged well enough.
     fn new(claim: &Claim, limit: f64) -> Self {
-        let mut best = Self { count: 0, perturbation: 0.0, next: claim.next };
+        let mut best = Self::none(claim);
         let mut sum = 0.0;
         for (k, &(theta, residual)) in claim.beyond.iter().enumerate() {
-            if theta >= limit {
+            if residual > CONVERGED * (limit - theta) {
                 break;
             }
             sum += residual * residual / (limit - theta);
