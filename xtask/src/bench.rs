@@ -143,7 +143,8 @@ fn build_benchmarks() -> Result<Vec<criterion::Program>, String> {
     Ok(criterion::programs(&String::from_utf8_lossy(&output.stdout)))
 }
 
-/// Runs the benchmarks, on one core but for some, and reads how long they took; what they found is in `found/`.
+/// Runs the benchmarks, on one core but for some, and reads how long they took; what they found is in
+/// `found/`.
 fn run_benchmarks(
     args: &Args,
     programs: &[criterion::Program],

@@ -124,12 +124,12 @@ pub(crate) fn rayleigh_ritz(
         }
     }
     let small = symmetric_eigen(basis.len(), |i, j| 0.5 * (projected[i][j] + projected[j][i]))?;
-    let vectors = small.vectors.iter().map(|y| combine(basis, y, n_rows)).collect();
+    let vectors = small.vectors.col_iter().map(|y| combine(basis, y.iter(), n_rows)).collect();
     Ok(Eigenpairs { values: small.values, vectors })
 }
 
 /// Σ_k y_k q_k.
-fn combine(basis: &[Vec<f64>], y: &[f64], n_rows: usize) -> Vec<f64> {
+fn combine<'a>(basis: &[Vec<f64>], y: impl Iterator<Item = &'a f64>, n_rows: usize) -> Vec<f64> {
     let mut sum = vec![0.0; n_rows];
     for (q, &y_k) in basis.iter().zip(y) {
         add_scaled(y_k, q, &mut sum);

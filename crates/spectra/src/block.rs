@@ -5,6 +5,8 @@
 //! block are made orthonormal by their Gram matrix (Stathopoulos & Wu, SIAM J. Sci. Comput. 23, 2165
 //! (2002), SVQB).
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
@@ -28,6 +30,11 @@ pub(crate) struct Block {
 impl Block {
     /// The widest block.
     pub const WIDEST: usize = 8;
+
+    /// The ranges of `n` vectors that fill blocks one after another.
+    pub fn ranges(n: usize) -> impl Iterator<Item = Range<usize>> {
+        (0..n).step_by(Self::WIDEST).map(move |first| first..n.min(first + Self::WIDEST))
+    }
 
     /// Vectors of zeros.
     pub fn zeros(n_rows: usize, width: usize) -> Self {
@@ -148,15 +155,6 @@ impl Block {
         true
     }
 
-    /// Divides each vector by its norm, which must not be zero.
-    pub fn normalise(&mut self) {
-        let factors: Vec<f64> = self.norms().iter().map(|norm| 1.0 / norm).collect();
-        self.transform(
-            Mat::from_fn(self.width, self.width, |v, k| if v == k { factors[v] } else { 0.0 })
-                .as_ref(),
-        );
-    }
-
     /// An orthonormal basis of the span of its vectors, and how independent they were; none when all
     /// are of norm zero.
     pub fn span(mut self) -> Result<Option<(Self, f64)>, SpectraError> {
@@ -184,7 +182,7 @@ impl Block {
         if kept == 0 {
             return Ok(None);
         }
-        let coefficient = |v, k: usize| pairs.vectors[k][v] / pairs.values[k].sqrt();
+        let coefficient = |v, k: usize| pairs.vectors[(v, k)] / pairs.values[k].sqrt();
         self.transform(Mat::from_fn(self.width, kept, coefficient).as_ref());
         Ok(Some(pairs.values[pairs.values.len() - 1].max(0.0).sqrt()))
     }

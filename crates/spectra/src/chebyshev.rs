@@ -33,6 +33,12 @@ impl Interval {
         (above + (above * (above + 2.0)).sqrt()).ln_1p()
     }
 
+    /// Degrees after which what rounding left of the eigenvalue `top`, projected out, has to be
+    /// projected out again: when it has been amplified by `gain`.
+    pub fn stretch(&self, top: f64, gain: f64) -> usize {
+        (gain.ln() / self.growth(top)).clamp(1.0, 1e6) as usize
+    }
+
     /// ln T_d(t(λ)) for λ ≥ c.
     pub fn log_gain(&self, degree: usize, lambda: f64) -> f64 {
         let exponent = degree as f64 * self.growth(lambda);

@@ -18,11 +18,9 @@ use rand_pcg::Pcg64;
 
 use crate::arpack::{self, Outcome, Settings};
 use crate::basis::{Eigenpairs, orthonormalise_against, rayleigh_ritz};
-use crate::block::Block;
 use crate::kernel::{components, kernel};
 use crate::operator::{Deflated, Operator, Shifted};
 use crate::orthonormal::Basis;
-use crate::probing::FIRST_PROBES;
 use crate::random::Random;
 use crate::request::Plan;
 use crate::verification::{Claim, Verifier};
@@ -53,7 +51,7 @@ pub(crate) fn leading(
     let shift = 3.0 * plan.scale;
     let shifted = Shifted { matrix: w.symmetric(), shift };
     let mut search = Search::new(w, &shifted, plan)?;
-    let mut probes = FIRST_PROBES;
+    let mut tries = 0;
     loop {
         let Complete { n_modes, next } = search.run()?;
         // Without the shift, whose size would limit the accuracy of eigenvalues near 0.
@@ -73,9 +71,9 @@ pub(crate) fn leading(
             beyond: Vec::new(),
             products_left: plan.max_products.saturating_sub(search.products),
             products_spent: search.products,
-            probes,
+            tries,
         };
-        probes = (2 * probes).min(Block::WIDEST);
+        tries += 1;
         let outcome = verifier.verify(&claim, &basis, &mut random)?;
         search.products += outcome.products;
         if let Some(verification) = outcome.verification {

@@ -14,15 +14,15 @@ use graph::CouplingMatrix;
 use crate::basis::Eigenpairs;
 use crate::block::Block;
 use crate::completeness::Found;
+use crate::dense::Eigen;
 use crate::expansion::{Amplifier, Situation};
 use crate::kernel::{components, kernel};
 use crate::long_sequence::LongSequence;
 use crate::orthonormal::Basis;
 use crate::pace::Pace;
-use crate::probing::FIRST_PROBES;
 use crate::product::Links;
 use crate::progress::{Advance, Progress};
-use crate::projected::{Projected, Ritz};
+use crate::projected::Projected;
 use crate::random::Random;
 use crate::request::Plan;
 use crate::verification::{Claim, Verifier};
@@ -46,8 +46,8 @@ pub(crate) struct Search<'a> {
     settled: Vec<f64>,
     random: Random,
     products: usize,
-    /// Random vectors of the next verification: more each time that one has found something.
-    probes: usize,
+    /// Verifications so far.
+    tries: u32,
 }
 
 /// What a look at the leading Ritz vectors found.
@@ -73,8 +73,7 @@ impl<'a> Search<'a> {
         }
         let settled = vec![0.0; basis.len()];
         let space = Projected::kernel(basis);
-        let probes = FIRST_PROBES;
-        Ok(Self { w, links, plan, progress, space, settled, random, products, probes })
+        Ok(Self { w, links, plan, progress, space, settled, random, products, tries: 0 })
     }
 
     /// Solves until nothing is missing.
@@ -126,7 +125,7 @@ impl<'a> Search<'a> {
     }
 
     /// The modes when the basis is one of all space, and every Ritz vector an eigenvector.
-    fn everything(mut self, ritz: Ritz) -> Result<(Found, Verification), SpectraError> {
+    fn everything(mut self, ritz: Eigen) -> Result<(Found, Verification), SpectraError> {
         self.plan.wanted.check(&ritz.values, self.plan.grouping)?;
         let n_modes =
             self.plan.wanted.complete(&ritz.values, f64::NEG_INFINITY, self.plan.grouping);
@@ -138,7 +137,7 @@ impl<'a> Search<'a> {
     /// The next block: the first Ritz vectors that have not converged, amplified.
     fn amplified(
         &mut self,
-        ritz: &Ritz,
+        ritz: &Eigen,
         amplifier: &Amplifier<'_>,
     ) -> Result<Option<Block>, SpectraError> {
         let first = self.settled.len();
@@ -160,7 +159,7 @@ impl<'a> Search<'a> {
     /// basis consists of Ritz vectors.
     fn extend_by_sequence(
         &mut self,
-        ritz: &Ritz,
+        ritz: &Eigen,
         amplifier: &Amplifier<'_>,
         most_steps: usize,
     ) -> Result<(), SpectraError> {
@@ -195,7 +194,7 @@ impl<'a> Search<'a> {
     }
 
     /// Vectors to work on: as many as are missing, within bounds.
-    fn width(&self, ritz: &Ritz) -> usize {
+    fn width(&self, ritz: &Eigen) -> usize {
         let known = self.plan.wanted.known(&ritz.values, self.plan.grouping);
         known.saturating_sub(self.settled.len()).clamp(NARROWEST, WIDTH)
     }
@@ -221,7 +220,7 @@ impl<'a> Search<'a> {
     }
 
     /// Finds out how many of the leading Ritz vectors have converged.
-    fn settle(&mut self, ritz: &Ritz) -> Result<Front, SpectraError> {
+    fn settle(&mut self, ritz: &Eigen) -> Result<Front, SpectraError> {
         let moved = |(before, now): (&f64, &f64)| (before - now).abs() > self.plan.residual_bound;
         if let Some(k) = self.settled.iter().zip(&ritz.values).position(moved) {
             self.settled.truncate(k);
@@ -245,7 +244,7 @@ impl<'a> Search<'a> {
     /// |S u − θ u| of some Ritz vectors.
     fn residuals(
         &mut self,
-        ritz: &Ritz,
+        ritz: &Eigen,
         first: usize,
         count: usize,
     ) -> Result<Vec<f64>, SpectraError> {
@@ -258,33 +257,25 @@ impl<'a> Search<'a> {
     }
 
     /// How many modes to hand over, as soon as they have converged and the next one lies apart.
-    fn complete(&self, ritz: &Ritz, front: &Front) -> Option<usize> {
-        let complete = |values, next| self.plan.wanted.complete(values, next, self.plan.grouping);
-        // The last one settled bounds what follows more tightly than one that has not converged.
-        let without_last = || {
-            let (&last, before) = self.settled.split_last()?;
-            complete(before, last)
-        };
-        complete(&self.settled, self.next(ritz, front)).or_else(without_last).filter(|&n| n > 0)
+    fn complete(&self, ritz: &Eigen, front: &Front) -> Option<usize> {
+        let next = self.next(ritz, front);
+        self.plan.wanted.complete_of_found(&self.settled, next, self.plan.grouping)
     }
 
     /// The most that the first Ritz value that has not converged stands for.
-    fn next(&self, ritz: &Ritz, front: &Front) -> f64 {
+    fn next(&self, ritz: &Eigen, front: &Front) -> f64 {
         front.residual.map_or(f64::NEG_INFINITY, |r| ritz.values[self.settled.len()] + r)
     }
 
     /// Looks at the residuals of all modes once more: those found first may have moved since.
-    fn all_converged(&mut self, ritz: &Ritz, n_modes: usize) -> Result<bool, SpectraError> {
-        let mut first = 0;
-        while first < n_modes {
-            let count = 8.min(n_modes - first);
-            let residuals = self.residuals(ritz, first, count)?;
+    fn all_converged(&mut self, ritz: &Eigen, n_modes: usize) -> Result<bool, SpectraError> {
+        for range in Block::ranges(n_modes) {
+            let residuals = self.residuals(ritz, range.start, range.len())?;
             let bound = self.plan.residual_bound;
             if let Some(k) = residuals.iter().position(|&r| r > bound) {
-                self.settled.truncate(first + k);
+                self.settled.truncate(range.start + k);
                 return Ok(false);
             }
-            first += count;
         }
         Ok(true)
     }
@@ -292,7 +283,7 @@ impl<'a> Search<'a> {
     /// The verification, or a block that shows, or may show, that something is missing.
     fn verify(
         &mut self,
-        ritz: &Ritz,
+        ritz: &Eigen,
         front: &Front,
         n_modes: usize,
         verifier: &Verifier<'_>,
@@ -314,11 +305,11 @@ impl<'a> Search<'a> {
             beyond: ritz.values[n_modes..].iter().copied().zip(residuals).collect(),
             products_left: self.plan.max_products.saturating_sub(self.products),
             products_spent: self.products,
-            probes: self.probes,
+            tries: self.tries,
         };
+        self.tries += 1;
         let outcome = verifier.verify(&claim, &self.space.basis, &mut self.random)?;
         self.products += outcome.products;
-        self.probes = (2 * self.probes).min(Block::WIDEST);
         Ok(match outcome.verification {
             Some(verification) => Ok(verification),
             None => Err(outcome.block),
@@ -326,24 +317,20 @@ impl<'a> Search<'a> {
     }
 
     /// Vectors that survive a restart.
-    fn kept(&self, ritz: &Ritz) -> usize {
+    fn kept(&self, ritz: &Eigen) -> usize {
         let known = self.plan.wanted.known(&ritz.values, self.plan.grouping);
         known.max(self.settled.len()) + 2 * WIDTH
     }
 
     fn spend(&mut self, products: usize) -> Result<(), SpectraError> {
-        if self.products + products > self.plan.max_products {
-            return Err(self.unproven());
-        }
-        self.products += products;
-        Ok(())
+        self.plan.spend(&mut self.products, products, self.settled.len())
     }
 
     fn unproven(&self) -> SpectraError {
         self.plan.exhausted(self.settled.len(), self.products)
     }
 
-    fn report(&self, ritz: &Ritz) {
+    fn report(&self, ritz: &Eigen) {
         (self.progress)(Advance {
             products: self.products,
             converged: self.settled.len(),
@@ -352,7 +339,7 @@ impl<'a> Search<'a> {
     }
 
     /// The leading vectors of a basis that consists of Ritz vectors.
-    fn hand_over(self, ritz: &Ritz, n_modes: usize) -> Found {
+    fn hand_over(self, ritz: &Eigen, n_modes: usize) -> Found {
         let vectors = (0..n_modes).map(|k| self.space.basis.vector(k)).collect();
         let values = ritz.values[..n_modes].to_vec();
         Found { pairs: Eigenpairs { values, vectors }, products: self.products }

@@ -3,12 +3,13 @@
 //! S = U Λ Uᵀ by reduction to a tridiagonal matrix and divide and conquer. One thread always, so
 //! that the result does not depend on how many there are.
 
-use faer::diag::{Diag, DiagRef};
+use faer::diag::{Diag, DiagMut, DiagRef};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{
-    ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch, tridiagonal_self_adjoint_evd,
+    ComputeEigenvectors, EvdError, self_adjoint_evd, self_adjoint_evd_scratch,
+    tridiagonal_self_adjoint_evd,
 };
-use faer::{Mat, Par};
+use faer::{Mat, MatMut, MatRef, Par};
 use graph::SparseMatrix;
 
 use crate::basis::Eigenpairs;
@@ -23,82 +24,72 @@ pub(crate) fn leading(matrix: &SparseMatrix, plan: &Plan) -> Result<Found, Spect
             full[i * matrix.cols() + j] = s_ij;
         }
     }
-    let mut pairs = symmetric_eigen(matrix.rows(), |i, j| full[i * matrix.cols() + j])?;
+    let Eigen { mut values, vectors } =
+        symmetric_eigen(matrix.rows(), |i, j| full[i * matrix.cols() + j])?;
     if plan.wanted.cutoff().is_some() {
-        plan.wanted.check(&pairs.values, plan.grouping)?;
+        plan.wanted.check(&values, plan.grouping)?;
     }
-    let n_modes = plan.wanted.complete(&pairs.values, f64::NEG_INFINITY, plan.grouping);
-    pairs.truncate(n_modes.expect("all modes are complete"));
-    Ok(Found { pairs, products: 0 })
+    let n_modes = plan.wanted.complete(&values, f64::NEG_INFINITY, plan.grouping);
+    values.truncate(n_modes.expect("all modes are complete"));
+    let modes = vectors.col_iter().take(values.len());
+    let vectors = modes.map(|u| u.iter().copied().collect()).collect();
+    Ok(Found { pairs: Eigenpairs { values, vectors }, products: 0 })
 }
 
-/// All eigenpairs of the symmetric matrix with the given entries; the lower triangle is read.
-pub(crate) fn symmetric_eigen(
-    n_rows: usize,
-    entry: impl Fn(usize, usize) -> f64,
-) -> Result<Eigenpairs, SpectraError> {
-    if n_rows == 0 {
-        return Ok(Eigenpairs::default());
-    }
-    let matrix = Mat::from_fn(n_rows, n_rows, |i, j| if i >= j { entry(i, j) } else { 0.0 });
-    let mut ascending = Diag::<f64>::zeros(n_rows);
-    let mut vectors = Mat::<f64>::zeros(n_rows, n_rows);
-    let scratch = self_adjoint_evd_scratch::<f64>(
-        n_rows,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Default::default(),
-    );
-    self_adjoint_evd(
-        matrix.as_ref(),
-        ascending.as_mut(),
-        Some(vectors.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| SpectraError::DenseNotConverged { n_rows })?;
-    Ok(Eigenpairs {
-        values: ascending.column_vector().iter().rev().copied().collect(),
-        vectors: vectors.col_iter().rev().map(|u| u.iter().copied().collect()).collect(),
-    })
-}
-
-/// All eigenpairs of a symmetric tridiagonal matrix.
-pub(crate) struct TridiagonalEigen {
+/// All eigenpairs of a small symmetric matrix.
+pub(crate) struct Eigen {
     /// Eigenvalues, descending.
     pub values: Vec<f64>,
     /// Eigenvectors, as columns.
     pub vectors: Mat<f64>,
 }
 
+impl Eigen {
+    /// Some neighbouring eigenvectors.
+    pub fn columns(&self, first: usize, count: usize) -> MatRef<'_, f64> {
+        self.vectors.as_ref().subcols(first, count)
+    }
+}
+
+/// All eigenpairs of the symmetric matrix with the given entries; the lower triangle is read.
+pub(crate) fn symmetric_eigen(
+    n_rows: usize,
+    entry: impl Fn(usize, usize) -> f64,
+) -> Result<Eigen, SpectraError> {
+    let matrix = Mat::from_fn(n_rows, n_rows, |i, j| if i >= j { entry(i, j) } else { 0.0 });
+    eigen(n_rows, |values, vectors, stack| {
+        self_adjoint_evd(matrix.as_ref(), values, vectors, Par::Seq, stack, Default::default())
+    })
+}
+
 /// All eigenpairs of a symmetric tridiagonal matrix.
 ///
 /// - `beside`: the entries beside the diagonal, one fewer.
-pub(crate) fn tridiagonal_eigen(
-    diagonal: &[f64],
-    beside: &[f64],
-) -> Result<TridiagonalEigen, SpectraError> {
-    let n_rows = diagonal.len();
-    let mut ascending = Diag::<f64>::zeros(n_rows);
-    let mut vectors = Mat::<f64>::zeros(n_rows, n_rows);
+pub(crate) fn tridiagonal_eigen(diagonal: &[f64], beside: &[f64]) -> Result<Eigen, SpectraError> {
     let padded: Vec<f64> = beside.iter().copied().chain([0.0]).collect();
-    let scratch = self_adjoint_evd_scratch::<f64>(
-        n_rows,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Default::default(),
-    );
-    tridiagonal_self_adjoint_evd(
-        DiagRef::from_slice(diagonal),
-        DiagRef::from_slice(&padded),
-        ascending.as_mut(),
-        Some(vectors.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| SpectraError::DenseNotConverged { n_rows })?;
-    let values = ascending.column_vector().iter().rev().copied().collect();
-    Ok(TridiagonalEigen { values, vectors: vectors.reverse_cols().to_owned() })
+    let (diagonal, beside) = (DiagRef::from_slice(diagonal), DiagRef::from_slice(&padded));
+    eigen(diagonal.dim(), |values, vectors, stack| {
+        let (par, params) = (Par::Seq, Default::default());
+        tridiagonal_self_adjoint_evd(diagonal, beside, values, vectors, par, stack, params)
+    })
+}
+
+/// What an eigensolver of faer finds, in descending order.
+fn eigen(
+    n_rows: usize,
+    solve: impl FnOnce(DiagMut<'_, f64>, Option<MatMut<'_, f64>>, &mut MemStack) -> Result<(), EvdError>,
+) -> Result<Eigen, SpectraError> {
+    let mut values = Diag::zeros(n_rows);
+    let mut vectors = Mat::zeros(n_rows, n_rows);
+    if n_rows > 0 {
+        let (job, params) = (ComputeEigenvectors::Yes, Default::default());
+        let scratch = self_adjoint_evd_scratch::<f64>(n_rows, job, Par::Seq, params);
+        let mut buffer = MemBuffer::new(scratch);
+        solve(values.as_mut(), Some(vectors.as_mut()), MemStack::new(&mut buffer))
+            .map_err(|_| SpectraError::DenseNotConverged { n_rows })?;
+    }
+    Ok(Eigen {
+        values: values.column_vector().iter().rev().copied().collect(),
+        vectors: vectors.reverse_cols().to_owned(),
+    })
 }

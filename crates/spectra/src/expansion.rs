@@ -9,8 +9,7 @@ const HIGHEST_DEGREE: usize = 24;
 /// A filter may amplify the largest eigenvalue by this much more than those searched for: what
 /// rounding leaves of modes found then stays small.
 const LARGEST_GAIN: f64 = 1e10;
-
-/// A sequence may amplify it by this much before it is projected out.
+/// A sequence may amplify known eigenvectors by this much before they are projected out again.
 const STRETCH_GAIN: f64 = 1e6;
 
 /// T_d(t(S)), whose largest eigenvalues belong to the wanted eigenvectors.
@@ -48,8 +47,7 @@ impl Amplifier<'_> {
     /// when eigenvalues up to `high` are not amplified.
     pub fn stretch(&self, top: f64, high: Option<&f64>) -> usize {
         let high = high.copied().unwrap_or(self.first_guess);
-        let unwanted = Interval { low: self.low, high };
-        (STRETCH_GAIN.ln() / unwanted.growth(top)).clamp(1.0, 1e6) as usize
+        Interval { low: self.low, high }.stretch(top, STRETCH_GAIN)
     }
 
     fn interval(&self, situation: &Situation) -> Interval {

@@ -20,12 +20,12 @@ use graph::CouplingMatrix;
 
 use crate::block::Block;
 use crate::completeness::Found;
-use crate::dense::symmetric_eigen;
+use crate::dense::Eigen;
 use crate::inverse::Inverse;
 use crate::kernel::{components, kernel};
 use crate::orthonormal::Basis;
-use crate::probing::FIRST_PROBES;
 use crate::progress::{Advance, Progress};
+use crate::projected::Projection;
 use crate::random::Random;
 use crate::request::Plan;
 use crate::ritz::Modes;
@@ -57,8 +57,8 @@ pub(crate) struct Search<'a> {
     basis: Basis,
     /// Eigenvalues of those locked: of the kernel of S, and of others as accurate as they must be.
     locked: Vec<f64>,
-    /// Rows of the lower triangle of H.
-    projected: Vec<Vec<f64>>,
+    /// H.
+    projected: Projection,
     /// Q; none when the basis is one of all space.
     next: Option<Block>,
     /// B.
@@ -70,8 +70,8 @@ pub(crate) struct Search<'a> {
     n_settled: usize,
     /// How many eigenvalues a count has shown to be there.
     at_least: usize,
-    /// Random vectors of the next verification: more each time that one has found something.
-    probes: usize,
+    /// Verifications so far.
+    tries: u32,
 }
 
 /// Ritz values of the inverse, descending, their residuals, and their coordinates in V.
@@ -103,14 +103,14 @@ impl<'a> Search<'a> {
             products: 0,
             locked: vec![0.0; basis.len()],
             basis,
-            projected: Vec::new(),
+            projected: Projection::default(),
             next: None,
             coupling: Mat::new(),
             coupled: 0,
             strictness: STRICTNESS,
             n_settled: 0,
             at_least: 0,
-            probes: FIRST_PROBES,
+            tries: 0,
         };
         search.enter_random(WIDTH)?;
         Ok(search)
@@ -151,12 +151,7 @@ impl<'a> Search<'a> {
         self.basis.append(block);
         let coupled = self.locked.len() + first..self.basis.len();
         let overlaps = self.basis.overlaps_in(coupled.clone(), &image);
-        let h = |i: usize, v: usize| if i < first { 0.0 } else { overlaps[(i - first, v)] };
-        for v in 0..width {
-            let inside = |k: usize| 0.5 * (h(k, v) + h(before + v, k - before));
-            let row = (0..=before + v).map(|k| if k < before { h(k, v) } else { inside(k) });
-            self.projected.push(row.collect());
-        }
+        self.projected.append(first, overlaps.as_ref());
         self.coupled = width;
         let mut rest = image.clone();
         self.basis.subtract(coupled, &mut rest, overlaps.as_ref());
@@ -201,17 +196,15 @@ impl<'a> Search<'a> {
     }
 
     fn ritz(&self) -> Result<Ritz, SpectraError> {
-        let n_vectors = self.projected.len();
-        let pairs = symmetric_eigen(n_vectors, |i, j| self.projected[i][j])?;
-        let coordinates = Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]);
+        let Eigen { values: nu, vectors: coordinates } = self.projected.eigen()?;
         let residuals = match self.next {
             Some(_) => {
                 let rest = &self.coupling * &coordinates;
                 rest.col_iter().map(|column| column.norm_l2()).collect()
             }
-            None => vec![0.0; n_vectors],
+            None => vec![0.0; nu.len()],
         };
-        Ok(Ritz { nu: pairs.values, residuals, coordinates })
+        Ok(Ritz { nu, residuals, coordinates })
     }
 
     /// The eigenvalue of S that belongs to one of the inverse.
@@ -237,13 +230,7 @@ impl<'a> Search<'a> {
 
     /// How many modes to hand over, as soon as they have converged and the next one lies apart.
     fn complete(&self, settled: &[f64], next: f64) -> Option<usize> {
-        let complete = |values, next| self.plan.wanted.complete(values, next, self.plan.grouping);
-        // The last one settled bounds what follows more tightly than one that has not converged.
-        let without_last = || {
-            let (&last, before) = settled.split_last()?;
-            complete(before, last)
-        };
-        complete(settled, next).or_else(without_last).filter(|&n| n > 0)
+        self.plan.wanted.complete_of_found(settled, next, self.plan.grouping)
     }
 
     /// The modes of S in the span of those locked and of the first vectors û.
@@ -251,8 +238,8 @@ impl<'a> Search<'a> {
         let mut modes = Basis::empty(self.basis.n_rows());
         (0..self.locked.len()).for_each(|k| modes.push(&self.basis.vector(k)));
         let n_columns = n_vectors - self.locked.len();
-        for first in (0..n_columns).step_by(Block::WIDEST) {
-            let block = self.improved(ritz, first, Block::WIDEST.min(n_columns - first));
+        for range in Block::ranges(n_columns) {
+            let block = self.improved(ritz, range.start, range.len());
             if let Some(block) = modes.orthonormalise(block)? {
                 modes.append(&block);
             }
@@ -312,9 +299,9 @@ impl<'a> Search<'a> {
             beyond: Vec::new(),
             products_left: self.plan.max_products.saturating_sub(self.products),
             products_spent: self.products,
-            probes: self.probes,
+            tries: self.tries,
         };
-        self.probes = (2 * self.probes).min(Block::WIDEST);
+        self.tries += 1;
         let outcome = verifier.verify(&claim, &modes.basis, &mut self.random)?;
         self.products += outcome.products;
         if let Some(verification) = outcome.verification {
@@ -338,7 +325,7 @@ impl<'a> Search<'a> {
         let (found, rest) = modes.vectors_from(n_accurate, WIDTH);
         self.basis = found;
         self.locked = modes.values[..n_accurate].to_vec();
-        (self.projected, self.coupled, self.next) = (Vec::new(), 0, None);
+        (self.projected, self.coupled, self.next) = (Projection::default(), 0, None);
         self.next = rest.map_or(Ok(None), |rest| self.basis.orthonormalise(rest))?;
         self.coupling = Mat::zeros(self.next.as_ref().map_or(0, Block::width), 0);
         if self.next.is_none() { self.enter_random(WIDTH) } else { Ok(()) }
@@ -362,8 +349,7 @@ impl<'a> Search<'a> {
         self.basis.transform(rotation.as_ref());
         self.coupling = &self.coupling * y;
         self.coupled = kept;
-        let diagonal = |k: usize| (0..=k).map(|i| if i == k { ritz.nu[k] } else { 0.0 }).collect();
-        self.projected = (0..kept).map(diagonal).collect();
+        self.projected = Projection::diagonal(&ritz.nu[..kept]);
     }
 
     /// Modes known to be wanted.
@@ -374,11 +360,7 @@ impl<'a> Search<'a> {
     }
 
     fn spend(&mut self, products: usize) -> Result<(), SpectraError> {
-        if self.products + products > self.plan.max_products {
-            return Err(self.exhausted());
-        }
-        self.products += products;
-        Ok(())
+        self.plan.spend(&mut self.products, products, self.n_settled)
     }
 
     fn exhausted(&self) -> SpectraError {

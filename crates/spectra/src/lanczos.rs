@@ -9,9 +9,12 @@ use rayon::prelude::*;
 
 use crate::SpectraError;
 use crate::block::{Block, ROWS};
-use crate::dense::{TridiagonalEigen, tridiagonal_eigen};
+use crate::dense::{Eigen, tridiagonal_eigen};
 use crate::orthonormal::Basis;
 use crate::product::{Links, Step, weighted_sum};
+
+/// A β that is smaller, relatively, is rounding.
+const NOISE: f64 = 1e-14;
 
 /// A sequence of Lanczos vectors, of which the last two are at hand.
 pub(crate) struct Lanczos<'a> {
@@ -20,6 +23,8 @@ pub(crate) struct Lanczos<'a> {
     weights: Vec<f64>,
     before: Block,
     now: Block,
+    /// A β up to this is rounding.
+    noise: f64,
     /// α_1, …, α_k.
     diagonal: Vec<f64>,
     /// β_1, …, β_k.
@@ -27,12 +32,16 @@ pub(crate) struct Lanczos<'a> {
 }
 
 impl<'a> Lanczos<'a> {
-    /// A sequence that starts from a unit vector, in the coordinates of S.
-    pub fn from(start: Block, links: &'a Links<'a>) -> Self {
+    /// A sequence that starts from the direction of a vector, in the coordinates of S.
+    ///
+    /// - `scale`: max_i |w_ii|.
+    pub fn from(mut start: Block, links: &'a Links<'a>, scale: f64) -> Self {
+        assert!(start.normalise_each(0.0), "a sequence from a vector of norm zero");
         let weights = links.scale().par_iter().map(|scale| 1.0 / (scale * scale)).collect();
         let before = Block::zeros(start.n_rows(), 1);
         let now = links.to_node_space(start);
-        Self { links, weights, before, now, diagonal: Vec::new(), beside: Vec::new() }
+        let (diagonal, beside) = (Vec::new(), Vec::new());
+        Self { links, weights, before, now, noise: NOISE * scale, diagonal, beside }
     }
 
     /// Steps done.
@@ -55,8 +64,8 @@ impl<'a> Lanczos<'a> {
         self.steps().checked_sub(1 + back).map_or(1.0, |k| self.beside[k])
     }
 
-    /// One product; false when β_k is no more than `noise`, and there is no next vector.
-    pub fn step(&mut self, noise: f64) -> bool {
+    /// One product; false when β_k is rounding, and there is no next vector.
+    pub fn step(&mut self) -> bool {
         let (norm, norm_before) = (self.norm(0), self.norm(1));
         let previous = -self.last_beta() / norm_before;
         let step = Step { product: 1.0 / norm, same: 0.0, previous };
@@ -66,7 +75,7 @@ impl<'a> Lanczos<'a> {
         self.diagonal.push(alpha);
         self.beside.push(beta);
         std::mem::swap(&mut self.before, &mut self.now);
-        beta > noise
+        beta > self.noise
     }
 
     /// y − factor · x, where y is in the place of x_{k−1}; returns its norm.
@@ -89,7 +98,7 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Ritz pairs of the steps so far.
-    pub fn ritz(&self) -> Result<TridiagonalEigen, SpectraError> {
+    pub fn ritz(&self) -> Result<Eigen, SpectraError> {
         tridiagonal_eigen(&self.diagonal, &self.beside[..self.steps() - 1])
     }
 }

@@ -12,7 +12,7 @@ use faer::Mat;
 
 use crate::SpectraError;
 use crate::block::Block;
-use crate::dense::TridiagonalEigen;
+use crate::dense::Eigen;
 use crate::lanczos::Lanczos;
 use crate::orthonormal::Basis;
 use crate::product::Links;
@@ -31,8 +31,6 @@ const GUARDS: usize = 8;
 const RETURNING: f64 = 1e-14;
 /// How many times as many steps may still be needed when one is.
 const MOST_AHEAD: f64 = 2.0;
-/// A β that is smaller, relatively, is rounding.
-const NOISE: f64 = 1e-14;
 /// A Ritz vector with so small a part of the first vector is not one of the matrix.
 const SPURIOUS: f64 = 1e-8;
 /// By how much smaller than asked for residuals are to be: to the next step they are estimates.
@@ -77,16 +75,15 @@ impl LongSequence<'_> {
         needed: impl Fn(&[f64]) -> usize,
     ) -> Result<(Vec<Block>, usize), SpectraError> {
         self.known.project_out(&mut start);
-        start.normalise();
         let mut vectors = Basis::with_room(start.n_rows(), most_steps);
         let mut norms = Vec::new();
-        let mut lanczos = Lanczos::from(start, self.links);
+        let mut lanczos = Lanczos::from(start, self.links, self.scale);
         let mut next_look = FIRST_LOOK;
         loop {
             let (vector, norm) = lanczos.newest();
             vectors.append(vector);
             norms.push(norm);
-            let last = !lanczos.step(NOISE * self.scale) || lanczos.steps() == most_steps;
+            let last = !lanczos.step() || lanczos.steps() == most_steps;
             if last || lanczos.steps() == next_look {
                 let ritz = Ritz::of(&lanczos, self.grouping, &needed)?;
                 next_look = ritz.next_look(STRICTLY * self.residual_bound / self.scale);
@@ -110,10 +107,9 @@ impl LongSequence<'_> {
     /// The Ritz vectors, in the coordinates of S.
     fn combine(&self, vectors: &Basis, norms: &[f64], ritz: &Ritz) -> Vec<Block> {
         let weight = |k: usize, j: usize| ritz.coordinates[(k, j)] / norms[k];
-        let n_pairs = ritz.residuals.len();
-        let blocks = (0..n_pairs).step_by(Block::WIDEST).map(|first| {
-            let count = Block::WIDEST.min(n_pairs - first);
-            let weights = Mat::from_fn(norms.len(), count, |k, j| weight(k, first + j));
+        let blocks = Block::ranges(ritz.residuals.len()).map(|range| {
+            let of = |k, j| weight(k, range.start + j);
+            let weights = Mat::from_fn(norms.len(), range.len(), of);
             let block = vectors.combine(weights.as_ref());
             self.links.to_symmetric(block)
         });
@@ -129,7 +125,7 @@ impl Ritz {
         needed: impl Fn(&[f64]) -> usize,
     ) -> Result<Self, SpectraError> {
         let steps = lanczos.steps();
-        let TridiagonalEigen { values, vectors } = lanczos.ritz()?;
+        let Eigen { values, vectors } = lanczos.ritz()?;
         let mut first: Vec<usize> = Vec::new();
         for k in (0..steps).filter(|&k| vectors[(0, k)].abs() > SPURIOUS) {
             if first.last().is_none_or(|&j| values[j] - values[k] > grouping) {

@@ -13,8 +13,6 @@ use crate::random::Random;
 
 /// Steps of the look.
 const STEPS: usize = 24;
-/// A β that is smaller, relatively, is rounding.
-const NOISE: f64 = 1e-14;
 
 /// What a few Lanczos steps tell of the spectrum of S.
 pub(crate) struct Look {
@@ -32,10 +30,8 @@ impl Look {
     /// - `scale`: max_i |w_ii|.
     pub fn new(links: &Links<'_>, scale: f64, random: &mut Random) -> Result<Self, SpectraError> {
         let n_nodes = links.scale().len();
-        let mut start = random.block(n_nodes, 1);
-        start.normalise();
-        let mut lanczos = Lanczos::from(start, links);
-        while lanczos.steps() < STEPS.min(n_nodes) && lanczos.step(NOISE * scale) {}
+        let mut lanczos = Lanczos::from(random.block(n_nodes, 1), links, scale);
+        while lanczos.steps() < STEPS.min(n_nodes) && lanczos.step() {}
         let ritz = lanczos.ritz()?;
         let steps = lanczos.steps();
         let weights = (0..steps).map(|k| n_nodes as f64 * ritz.vectors[(0, k)].powi(2));

@@ -85,6 +85,12 @@ impl Basis {
         vector
     }
 
+    /// Some neighbouring vectors as a block.
+    pub fn block(&self, range: Range<usize>) -> Block {
+        let unit = |i, k: usize| if i == range.start + k { 1.0 } else { 0.0 };
+        self.combine(Mat::from_fn(self.n_vectors, range.len(), unit).as_ref())
+    }
+
     /// A basis of the first vectors.
     pub fn first(&self, n_vectors: usize) -> Self {
         let part = |(chunk, n_rows): (&Vec<f64>, usize)| chunk[..n_vectors * n_rows].to_vec();
@@ -215,10 +221,8 @@ impl Basis {
                 self.append(&vector);
             }
         }
-        let width = self.n_vectors - n_vectors;
-        let unit = |k, v: usize| if k == n_vectors + v { 1.0 } else { 0.0 };
-        let found =
-            (width > 0).then(|| self.combine(Mat::from_fn(self.n_vectors, width, unit).as_ref()));
+        let added = n_vectors..self.n_vectors;
+        let found = (!added.is_empty()).then(|| self.block(added));
         self.truncate(n_vectors);
         Ok(found)
     }

@@ -25,8 +25,6 @@ use crate::orthonormal::Basis;
 use crate::product::Links;
 use crate::random::Random;
 
-/// Probes sent at first.
-pub(crate) const FIRST_PROBES: usize = 2;
 /// The probability of a miss that probing aims at.
 const MISS: f64 = 1e-6;
 /// Filters that probes pass at most.
@@ -110,7 +108,7 @@ impl Probe {
                 block = Some(probes_now);
                 break;
             }
-            let stretch = (STRETCH_GAIN.ln() / unwanted.growth(self.top)).clamp(1.0, 1e6) as usize;
+            let stretch = unwanted.stretch(self.top, STRETCH_GAIN);
             clean(&mut probes_now);
             products += (degree + 1) * probes_now.width();
             let filtered = filter_between(links, probes_now, degree, unwanted, stretch, clean);

@@ -171,6 +171,23 @@ impl Request {
 }
 
 impl Plan {
+    /// Takes products from those allowed.
+    ///
+    /// - `spent`: the products so far.
+    /// - `converged`: the modes so far.
+    pub fn spend(
+        &self,
+        spent: &mut usize,
+        products: usize,
+        converged: usize,
+    ) -> Result<(), SpectraError> {
+        if *spent + products > self.max_products {
+            return Err(self.exhausted(converged, *spent));
+        }
+        *spent += products;
+        Ok(())
+    }
+
     /// The answer when the products are spent.
     pub fn exhausted(&self, converged: usize, products: usize) -> SpectraError {
         let requested = self.wanted.at_least();

@@ -29,12 +29,10 @@ impl Modes {
     pub fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
         let n_vectors = basis.len();
         let images = |basis: &Basis, call: &mut dyn FnMut(usize, &Block, Block)| {
-            for first in (0..n_vectors).step_by(Block::WIDEST) {
-                let count = Block::WIDEST.min(n_vectors - first);
-                let unit = |i, k: usize| if i == first + k { 1.0 } else { 0.0 };
-                let block = basis.combine(Mat::from_fn(n_vectors, count, unit).as_ref());
+            for range in Block::ranges(n_vectors) {
+                let block = basis.block(range.clone());
                 let image = multiply_block(w.symmetric(), &block);
-                call(first, &block, image);
+                call(range.start, &block, image);
             }
         };
         let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
@@ -44,7 +42,7 @@ impl Modes {
         });
         let pairs =
             symmetric_eigen(n_vectors, |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;
-        basis.transform(Mat::from_fn(n_vectors, n_vectors, |i, k| pairs.vectors[k][i]).as_ref());
+        basis.transform(pairs.vectors.as_ref());
         let mut residuals = Vec::with_capacity(n_vectors);
         images(&basis, &mut |first, block, mut image| {
             let minus: Vec<f64> =
@@ -59,10 +57,8 @@ impl Modes {
     pub fn vectors_from(&self, n_vectors: usize, width: usize) -> (Basis, Option<Block>) {
         let mut first = Basis::empty(self.basis.n_rows());
         (0..n_vectors).for_each(|k| first.push(&self.basis.vector(k)));
-        let count = width.min(self.basis.len() - n_vectors);
-        let unit = |i, k: usize| if i == n_vectors + k { 1.0 } else { 0.0 };
-        let rest = Mat::from_fn(self.basis.len(), count, unit);
-        (first, (count > 0).then(|| self.basis.combine(rest.as_ref())))
+        let others = n_vectors..self.basis.len().min(n_vectors + width);
+        (first, (!others.is_empty()).then(|| self.basis.block(others)))
     }
 
     /// The first of them, with the products that they took.

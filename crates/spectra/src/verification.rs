@@ -18,6 +18,9 @@ const FREE_PRODUCTS: usize = 2000;
 /// Products that probing may take whatever the solve took.
 const FREE_PROBING: usize = 20_000;
 
+/// Random vectors of the first probing.
+const FIRST_PROBES: usize = 2;
+
 /// By how much δ exceeds the least that it may be.
 const STRICTLY: f64 = 1.01;
 
@@ -46,8 +49,15 @@ pub(crate) struct Claim {
     pub products_left: usize,
     /// Products that the modes took.
     pub products_spent: usize,
-    /// Random vectors to probe with.
-    pub probes: usize,
+    /// Verifications before this one, none of which was final.
+    pub tries: u32,
+}
+
+impl Claim {
+    /// Random vectors to probe with: more each time.
+    fn probes(&self) -> usize {
+        (FIRST_PROBES << self.tries.min(8)).min(Block::WIDEST)
+    }
 }
 
 /// What a verification came to.
@@ -96,7 +106,7 @@ impl Verifier<'_> {
                 let outcome = self.by_probing(claim, probes, basis, random)?;
                 Ok(Outcome { verification: None, above: Some(count), ..outcome })
             }
-            None => self.by_probing(claim, claim.probes, basis, random),
+            None => self.by_probing(claim, claim.probes(), basis, random),
         }
     }
 
@@ -147,7 +157,7 @@ impl Verifier<'_> {
             probed = send(&Guards::none(claim), affordable.saturating_sub(spent), random)?;
             probed.products += spent;
         }
-        if is_open(&probed) && (probed.block.is_none() || claim.probes >= Block::WIDEST) {
+        if is_open(&probed) && (probed.block.is_none() || claim.probes() == Block::WIDEST) {
             return Err(SpectraError::CompletenessUnproven {
                 requested: claim.wanted.at_least(),
                 products: claim.products_spent + probed.products,

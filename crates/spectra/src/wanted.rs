@@ -27,6 +27,17 @@ impl Wanted {
         is_apart.then_some(n_whole)
     }
 
+    /// The same for modes that have been found in descending order, as soon as any can be kept.
+    ///
+    /// The last one found bounds what follows more tightly than one that has not converged.
+    pub fn complete_of_found(&self, found: &[f64], next: f64, grouping: f64) -> Option<usize> {
+        let without_last = || {
+            let (&last, before) = found.split_last()?;
+            self.complete(before, last, grouping)
+        };
+        self.complete(found, next, grouping).or_else(without_last).filter(|&n| n > 0)
+    }
+
     /// Modes known to be wanted, given the leading ones as far as they are known.
     pub fn known(&self, values: &[f64], grouping: f64) -> usize {
         let n_asked = match *self {
