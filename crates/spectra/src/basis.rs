@@ -71,12 +71,13 @@ pub(crate) fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Divides a vector by its 2-norm.
-pub(crate) fn normalise(a: &mut [f64]) {
+/// Divides a vector by its 2-norm, and returns that.
+pub(crate) fn normalise(a: &mut [f64]) -> f64 {
     let length = norm(a);
     for a_i in a {
         *a_i /= length;
     }
+    length
 }
 
 /// y += c x.
@@ -99,9 +100,11 @@ pub(crate) fn project_out(set: &[Vec<f64>], y: &mut [f64]) {
 /// The second round of Gram–Schmidt removes what rounding left after the first.
 pub(crate) fn orthonormalise_against(set: &[Vec<f64>], vector: &mut [f64]) -> f64 {
     normalise(vector);
+    if set.is_empty() {
+        return 1.0;
+    }
     project_out(set, vector);
-    let kept = norm(vector);
-    normalise(vector);
+    let kept = normalise(vector);
     project_out(set, vector);
     normalise(vector);
     kept

@@ -12,7 +12,7 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
 use crate::SpectraError;
-use crate::dense::symmetric_eigen;
+use crate::dense::{Eigen, symmetric_eigen};
 
 /// Nodes of a chunk.
 pub(crate) const ROWS: usize = 1024;
@@ -48,6 +48,19 @@ impl Block {
         Self { width, data }
     }
 
+    /// A block of at most eight vectors of one length.
+    pub fn from_vectors(vectors: &[Vec<f64>]) -> Self {
+        let width = vectors.len();
+        let mut block = Self::zeros(vectors[0].len(), width);
+        block.data.par_chunks_mut(ROWS * width).enumerate().for_each(|(chunk, rows)| {
+            for (v, vector) in vectors.iter().enumerate() {
+                let entries = &vector[chunk * ROWS..];
+                rows.chunks_exact_mut(width).zip(entries).for_each(|(row, entry)| row[v] = *entry);
+            }
+        });
+        block
+    }
+
     /// Length N of the vectors.
     pub fn n_rows(&self) -> usize {
         self.data.len() / self.width
@@ -71,6 +84,18 @@ impl Block {
     /// The entries of a node, one a vector.
     pub fn node(&self, i: usize) -> &[f64] {
         &self.data[i * self.width..(i + 1) * self.width]
+    }
+
+    /// The rows `order[0]`, `order[1]`, ….
+    pub fn reordered(&self, order: &[u32]) -> Self {
+        let mut rows = Self::zeros(order.len(), self.width);
+        let chunks = rows.data.par_chunks_mut(ROWS * self.width).zip(order.par_chunks(ROWS));
+        chunks.for_each(|(rows, order)| {
+            for (row, &i) in rows.chunks_mut(self.width).zip(order) {
+                row.copy_from_slice(self.node(i as usize));
+            }
+        });
+        rows
     }
 
     /// Multiplies the entries of every node by its own factor.
@@ -131,37 +156,25 @@ impl Block {
 
     /// Y ← Y C, which may have fewer vectors.
     pub fn transform(&mut self, c: MatRef<'_, f64>) {
-        assert!(c.ncols() > 0 && c.nrows() == self.width, "{} × {}", c.nrows(), c.ncols());
-        let mut image = Self::zeros(self.n_rows(), c.ncols());
-        let chunks = image.data.par_chunks_mut(ROWS * c.ncols());
-        chunks.zip(self.data.par_chunks(ROWS * self.width)).for_each(|(image, y)| {
-            let n_rows = y.len() / self.width;
-            let y = MatRef::from_row_major_slice(y, n_rows, self.width);
-            let image = MatMut::from_row_major_slice_mut(image, n_rows, c.ncols());
+        let (before, after) = (self.width, c.ncols());
+        assert!(after > 0 && c.nrows() == before, "{} × {after}", c.nrows());
+        let multiply = |y: &[f64], image: &mut [f64]| {
+            let n_rows = y.len() / before;
+            let y = MatRef::from_row_major_slice(y, n_rows, before);
+            let image = MatMut::from_row_major_slice_mut(image, n_rows, after);
             matmul(image, Accum::Replace, y, c, 1.0, Par::Seq);
-        });
+        };
+        if after == before {
+            let in_place = |y: &mut [f64]| {
+                let before = y.to_vec();
+                multiply(&before, y);
+            };
+            return self.data.par_chunks_mut(ROWS * before).for_each(in_place);
+        }
+        let mut image = Self::zeros(self.n_rows(), after);
+        let chunks = image.data.par_chunks_mut(ROWS * after);
+        chunks.zip(self.data.par_chunks(ROWS * before)).for_each(|(image, y)| multiply(y, image));
         *self = image;
-    }
-
-    /// Divides each vector by its norm and drops those of a norm of at most `noise`; false when all are.
-    pub fn normalise_each(&mut self, noise: f64) -> bool {
-        let norms = self.norms();
-        let kept: Vec<usize> = (0..self.width).filter(|&v| norms[v] > noise).collect();
-        if kept.is_empty() {
-            return false;
-        }
-        let factor = |v, k: usize| if kept[k] == v { 1.0 / norms[v] } else { 0.0 };
-        self.transform(Mat::from_fn(self.width, kept.len(), factor).as_ref());
-        true
-    }
-
-    /// An orthonormal basis of the span of its vectors, and how independent they were; none when all
-    /// are of norm zero.
-    pub fn span(mut self) -> Result<Option<(Self, f64)>, SpectraError> {
-        if !self.normalise_each(0.0) {
-            return Ok(None);
-        }
-        Ok(self.orthonormalise()?.map(|least| (self, least)))
     }
 
     /// These vectors and others.
@@ -171,20 +184,70 @@ impl Block {
         Self::from_nodes(self.width + others.width, rows.copied().collect())
     }
 
-    /// Makes unit vectors orthonormal, and says how independent they were; none when they were not.
+    /// How independent the directions of the vectors are: 1 where they are orthogonal, 0 where one is 0.
+    pub fn independence(&self) -> Result<f64, SpectraError> {
+        let directions = Directions::of(self, &vec![0.0; self.width])?;
+        Ok(directions.filter(|found| found.kept.len() == self.width).map_or(0.0, |d| d.least()))
+    }
+
+    /// Makes the vectors orthonormal; those no longer than `noise` are left out, and directions that
+    /// depend on the others. None when nothing is left.
     ///
-    /// Y ← Y Q Λ^{-1/2} with Yᵀ Y = Q Λ Qᵀ, where directions of negligible λ are left out. Returns the
-    /// root of the smallest λ, those left out included.
-    pub fn orthonormalise(&mut self) -> Result<Option<f64>, SpectraError> {
-        let gram = self.gram();
-        let pairs = symmetric_eigen(self.width, |v, w| gram[(v, w)])?;
-        let kept = pairs.values.iter().take_while(|&&l| l > DEPENDENT * pairs.values[0]).count();
-        if kept == 0 {
+    /// Y ← Y N⁻¹ Q Λ^{-1/2} with the norms N and N⁻¹ Yᵀ Y N⁻¹ = Q Λ Qᵀ.
+    pub fn orthonormalise(&mut self, noise: &[f64]) -> Result<Option<Cleared>, SpectraError> {
+        let Some(found) = Directions::of(self, noise)? else {
+            return Ok(None);
+        };
+        let Eigen { values, vectors } = &found.correlations;
+        let n_independent = values.iter().take_while(|&&l| l > DEPENDENT * values[0]).count();
+        let mut c = Mat::zeros(self.width, n_independent);
+        for (row, &v) in found.kept.iter().enumerate() {
+            for k in 0..n_independent {
+                c[(v, k)] = vectors[(row, k)] / (values[k].sqrt() * found.norms[v]);
+            }
+        }
+        self.transform(c.as_ref());
+        Ok(Some(Cleared { least: found.least(), norms: found.norms }))
+    }
+}
+
+/// What [`Block::orthonormalise`] found.
+pub(crate) struct Cleared {
+    /// How independent the directions of the vectors were that were not noise.
+    pub least: f64,
+    /// The 2-norm that each vector had.
+    pub norms: Vec<f64>,
+}
+
+/// The directions of the vectors of a block.
+struct Directions {
+    norms: Vec<f64>,
+    /// Vectors longer than noise.
+    kept: Vec<usize>,
+    /// Eigenpairs of the Gram matrix of their directions.
+    correlations: Eigen,
+}
+
+impl Directions {
+    /// None when all is noise.
+    fn of(block: &Block, noise: &[f64]) -> Result<Option<Self>, SpectraError> {
+        let gram = block.gram();
+        let norms: Vec<f64> = (0..block.width).map(|v| gram[(v, v)].sqrt()).collect();
+        let kept: Vec<usize> = (0..block.width).filter(|&v| norms[v] > noise[v]).collect();
+        if kept.is_empty() {
             return Ok(None);
         }
-        let coefficient = |v, k: usize| pairs.vectors[(v, k)] / pairs.values[k].sqrt();
-        self.transform(Mat::from_fn(self.width, kept, coefficient).as_ref());
-        Ok(Some(pairs.values[pairs.values.len() - 1].max(0.0).sqrt()))
+        let entry = |i: usize, j: usize| {
+            let (v, w) = (kept[i], kept[j]);
+            gram[(v, w)] / (norms[v] * norms[w])
+        };
+        let correlations = symmetric_eigen(kept.len(), entry)?;
+        Ok(Some(Self { norms, kept, correlations }))
+    }
+
+    /// The root of the smallest eigenvalue.
+    fn least(&self) -> f64 {
+        self.correlations.values[self.kept.len() - 1].max(0.0).sqrt()
     }
 }
 

@@ -9,6 +9,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
     SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
@@ -16,7 +17,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side};
 use graph::SparseMatrix;
 
-use crate::separator;
+use crate::{dissection, separator};
 
 /// Most nonzeros of a factor: 800 MB, twice while a count is verified.
 pub(crate) const MOST_NONZEROS: usize = 100_000_000;
@@ -48,7 +49,14 @@ impl<'a> Symbolic<'a> {
             matrix.proper_indptr().iter().map(|&start| u32::try_from(start).ok()).collect();
         let starts = starts?;
         let pattern = pattern(matrix, &starts);
-        let ordering = SymmetricOrdering::Amd;
+        let order = match &shape.cut {
+            Some(cut) => Some(dissection::order(pattern, cut)?),
+            None => None,
+        };
+        let ordering = match &order {
+            Some(order) => SymmetricOrdering::Custom(order.as_ref()),
+            None => SymmetricOrdering::Amd,
+        };
         let cholesky =
             factorize_symbolic_cholesky(pattern, Side::Upper, ordering, Default::default()).ok()?;
         let operations = columns(&cholesky).map(|length| 0.5 * (length * length) as f64).sum();
@@ -136,10 +144,10 @@ impl Factors<'_> {
         self.cholesky.nrows()
     }
 
-    /// Which row of S is eliminated first, second, …; none where their own order is that of
-    /// elimination.
-    pub fn order(&self) -> Option<&[u32]> {
-        self.cholesky.perm().map(|permutation| permutation.arrays().0)
+    /// Which row of S is eliminated first, second, …, and when each row is; none where their own order
+    /// is that of elimination.
+    pub fn order(&self) -> Option<(&[u32], &[u32])> {
+        self.cholesky.perm().map(PermRef::arrays)
     }
 
     /// Number of panels.
@@ -151,6 +159,7 @@ impl Factors<'_> {
     }
 
     /// A panel, in the order of elimination.
+    #[inline]
     pub fn panel(&self, p: usize) -> Panel<'_> {
         match self.cholesky.raw() {
             SymbolicCholeskyRaw::Simplicial(pattern) => {

@@ -68,35 +68,34 @@ impl<'s> Inverse<'s> {
         self.shift
     }
 
-    /// (μ − S)⁻¹ X.
-    pub fn apply(&self, x: &Block) -> Block {
+    /// Vectors over nodes, in the order of elimination.
+    pub fn to_elimination(&self, x: &Block) -> Block {
+        self.factors.order().map_or_else(|| x.clone(), |(order, _)| x.reordered(order))
+    }
+
+    /// Vectors in the order of elimination, over nodes.
+    pub fn to_nodes(&self, x: &Block) -> Block {
+        self.factors.order().map_or_else(|| x.clone(), |(_, places)| x.reordered(places))
+    }
+
+    /// X ← (μ − S)⁻¹ X for vectors in the order of elimination.
+    pub fn apply(&self, x: &mut Block) {
         match x.width() {
-            1 => self.apply_wide::<1>(x),
-            2 => self.apply_wide::<2>(x),
-            3 => self.apply_wide::<3>(x),
-            4 => self.apply_wide::<4>(x),
-            5 => self.apply_wide::<5>(x),
-            6 => self.apply_wide::<6>(x),
-            7 => self.apply_wide::<7>(x),
-            8 => self.apply_wide::<8>(x),
+            1 => self.solve::<1>(x),
+            2 => self.solve::<2>(x),
+            3 => self.solve::<3>(x),
+            4 => self.solve::<4>(x),
+            5 => self.solve::<5>(x),
+            6 => self.solve::<6>(x),
+            7 => self.solve::<7>(x),
+            8 => self.solve::<8>(x),
             width => unreachable!("blocks are at most 8 wide, not {width}"),
         }
     }
 
-    fn apply_wide<const B: usize>(&self, x: &Block) -> Block {
-        let order = self.factors.order();
-        let node = |k: usize| order.map_or(k, |order| order[k] as usize);
-        let (x, _) = x.data().as_chunks::<B>();
-        let mut y: Vec<[f64; B]> = (0..x.len()).map(|k| x[node(k)]).collect();
-        self.solve(&mut y);
-        let mut image = Block::zeros(x.len(), B);
-        let (rows, _) = image.data_mut().as_chunks_mut::<B>();
-        y.into_iter().enumerate().for_each(|(k, row)| rows[node(k)] = row);
-        image
-    }
-
     /// Y ← −L⁻ᵀ D⁻¹ L⁻¹ Y.
-    fn solve<const B: usize>(&self, y: &mut [[f64; B]]) {
+    fn solve<const B: usize>(&self, y: &mut Block) {
+        let (y, _) = y.data_mut().as_chunks_mut::<B>();
         let Parts { second, separator } = self.parts;
         let n_panels = self.factors.n_panels();
         let row = |p: usize| if p < n_panels { self.factors.panel(p).start } else { y.len() };
@@ -144,6 +143,17 @@ impl<const B: usize> Rows<'_, B> {
     /// Y ← L⁻¹ Y for the columns of a panel.
     fn down(&mut self, panel: &Panel<'_>, above: &mut [[f64; B]]) {
         let triangle = panel.start - self.first;
+        if panel.width == 1 {
+            let (x, beyond) = (self.part[triangle], self.beyond);
+            for (&i, &l) in panel.below.iter().zip(&panel.values[1..]) {
+                let i = i as usize;
+                let part = &mut *self.part;
+                let y_i =
+                    if i < beyond { &mut part[i - self.first] } else { &mut above[i - beyond] };
+                subtract(y_i, l, &x);
+            }
+            return;
+        }
         for k in 0..panel.width {
             let (y_k, rest) = self.part[triangle + k..triangle + panel.width]
                 .split_first_mut()
@@ -160,6 +170,20 @@ impl<const B: usize> Rows<'_, B> {
     /// Y ← −L⁻ᵀ D⁻¹ Y for the columns of a panel.
     fn up(&mut self, panel: &Panel<'_>, above: &[[f64; B]]) {
         let triangle = panel.start - self.first;
+        if panel.width == 1 {
+            let mut x = self.part[triangle].map(|entry| -entry / panel.values[0]);
+            for (&i, &l) in panel.below.iter().zip(&panel.values[1..]) {
+                let i = i as usize;
+                let y_i = if i < self.beyond {
+                    &self.part[i - self.first]
+                } else {
+                    &above[i - self.beyond]
+                };
+                subtract(&mut x, l, y_i);
+            }
+            self.part[triangle] = x;
+            return;
+        }
         for k in 0..panel.width {
             let minus = -1.0 / panel.column(k)[0];
             self.part[triangle + k].iter_mut().for_each(|entry| *entry *= minus);
@@ -177,12 +201,23 @@ impl<const B: usize> Rows<'_, B> {
         }
     }
 
+    /// How many rows of the rectangle belong to this part.
+    #[inline(always)]
+    fn n_inside(&self, panel: &Panel<'_>) -> usize {
+        let is_inside = |&i: &u32| (i as usize) < self.beyond;
+        if panel.below.last().is_none_or(is_inside) {
+            panel.below.len()
+        } else {
+            panel.below.partition_point(is_inside)
+        }
+    }
+
     /// The rectangle's part of Y ← L⁻¹ Y for C columns.
     fn below_down<const C: usize>(&mut self, panel: &Panel<'_>, k: usize, above: &mut [[f64; B]]) {
         let columns = rectangle::<C>(panel, k);
         let first = panel.start - self.first + k;
         let x: [[f64; B]; C] = std::array::from_fn(|k| self.part[first + k]);
-        let n_inside = panel.below.partition_point(|&i| (i as usize) < self.beyond);
+        let n_inside = self.n_inside(panel);
         for (r, &i) in panel.below.iter().enumerate() {
             let y_i = if r < n_inside {
                 &mut self.part[i as usize - self.first]
@@ -202,7 +237,7 @@ impl<const B: usize> Rows<'_, B> {
         let columns = rectangle::<C>(panel, k);
         let first = panel.start - self.first + k;
         let mut x: [[f64; B]; C] = std::array::from_fn(|k| self.part[first + k]);
-        let n_inside = panel.below.partition_point(|&i| (i as usize) < self.beyond);
+        let n_inside = self.n_inside(panel);
         for (r, &i) in panel.below.iter().enumerate() {
             let y_i = if r < n_inside {
                 self.part[i as usize - self.first]

@@ -45,7 +45,9 @@ pub(crate) fn kernel(w: &CouplingMatrix, components: &Components) -> Vec<Vec<f64
     for (node, (&component, scale)) in components.of_node.iter().zip(w.scale()).enumerate() {
         vectors[component][node] = 1.0 / scale;
     }
-    vectors.iter_mut().for_each(|vector| normalise(vector));
+    for vector in &mut vectors {
+        normalise(vector);
+    }
     vectors
 }
 

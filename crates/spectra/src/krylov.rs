@@ -21,6 +21,7 @@ use graph::CouplingMatrix;
 use crate::block::Block;
 use crate::completeness::Found;
 use crate::dense::Eigen;
+use crate::factorisation::Symbolic;
 use crate::inverse::Inverse;
 use crate::kernel::{components, kernel};
 use crate::orthonormal::Basis;
@@ -49,11 +50,11 @@ const STRICTNESS: f64 = 0.25;
 pub(crate) struct Search<'a> {
     w: &'a CouplingMatrix,
     plan: &'a Plan,
-    inverse: &'a Inverse<'a>,
+    inverse: Inverse<'a>,
     progress: Progress<'a>,
     random: Random,
     products: usize,
-    /// The eigenvectors that are locked, then V.
+    /// The eigenvectors that are locked, then V, in the order of elimination.
     basis: Basis,
     /// Eigenvalues of those locked: of the kernel of S, and of others as accurate as they must be.
     locked: Vec<f64>,
@@ -86,14 +87,21 @@ impl<'a> Search<'a> {
     pub fn new(
         w: &'a CouplingMatrix,
         plan: &'a Plan,
-        inverse: &'a Inverse<'a>,
-        random: Random,
+        (symbolic, shift): (&'a Symbolic<'a>, f64),
+        mut random: Random,
         progress: Progress<'a>,
     ) -> Result<Self, SpectraError> {
         let components = components(w);
         plan.wanted.check(&vec![0.0; components.count], plan.grouping)?;
+        let width = WIDTH.min(w.n_nodes() - components.count);
+        let mut start = || (width > 0).then(|| random.block(w.n_nodes(), width));
+        let (inverse, (kernel, start)) =
+            rayon::join(|| Inverse::new(symbolic, shift), || (kernel(w, &components), start()));
+        let inverse = inverse.ok_or(SpectraError::NotPositiveDefinite { shift })?;
         let mut basis = Basis::empty(w.n_nodes());
-        kernel(w, &components).iter().for_each(|vector| basis.push(vector));
+        for vector in kernel {
+            basis.append(&inverse.to_elimination(&Block::from_nodes(1, vector)));
+        }
         let mut search = Self {
             w,
             plan,
@@ -112,7 +120,9 @@ impl<'a> Search<'a> {
             at_least: 0,
             tries: 0,
         };
-        search.enter_random(WIDTH)?;
+        if let Some(start) = &start {
+            search.enter(start)?;
+        }
         Ok(search)
     }
 
@@ -144,7 +154,8 @@ impl<'a> Search<'a> {
     /// Multiplies Q, which enters the basis, and finds the next one.
     fn extend(&mut self, block: &Block) -> Result<(), SpectraError> {
         self.spend(block.width())?;
-        let image = self.inverse.apply(block);
+        let mut image = block.clone();
+        self.inverse.apply(&mut image);
         let (before, width) = (self.projected.len(), block.width());
         // A block couples to those from which it came, and to itself.
         let first = before - self.coupled;
@@ -155,11 +166,11 @@ impl<'a> Search<'a> {
         self.coupled = width;
         let mut rest = image.clone();
         self.basis.subtract(coupled, &mut rest, overlaps.as_ref());
-        let next = match rest.clone().span()? {
-            Some((rest, least)) if least > INDEPENDENT => self.basis.orthonormalise(rest)?,
+        let next = if rest.independence()? > INDEPENDENT {
+            self.basis.orthonormalise(rest)?
+        } else {
             // Nothing of the rest may be left out as dependent: it would be missing from Q B.
-            Some(_) => self.basis.orthonormalise_one_by_one(&rest)?,
-            None => None,
+            self.basis.orthonormalise_one_by_one(&rest)?
         };
         let Some(next) = next else {
             return self.enter_random(WIDTH);
@@ -181,7 +192,12 @@ impl<'a> Search<'a> {
             return Ok(());
         }
         let random = self.random.block(n_rows, width);
-        let both = self.next.as_ref().map_or_else(|| random.clone(), |next| next.beside(&random));
+        self.enter(&random)
+    }
+
+    /// Vectors in the place of Q, or beside it.
+    fn enter(&mut self, new: &Block) -> Result<(), SpectraError> {
+        let both = self.next.as_ref().map_or_else(|| new.clone(), |next| next.beside(new));
         let before = self.coupling.clone();
         let Some(both) = self.basis.orthonormalise(both)? else {
             return Err(self.exhausted());
@@ -235,34 +251,38 @@ impl<'a> Search<'a> {
 
     /// The modes of S in the span of those locked and of the first vectors û.
     fn modes(&mut self, ritz: &Ritz, n_vectors: usize) -> Result<Modes, SpectraError> {
+        let n_locked = self.locked.len();
         let mut modes = Basis::empty(self.basis.n_rows());
-        (0..self.locked.len()).for_each(|k| modes.push(&self.basis.vector(k)));
-        let n_columns = n_vectors - self.locked.len();
-        for range in Block::ranges(n_columns) {
-            let block = self.improved(ritz, range.start, range.len());
-            if let Some(block) = modes.orthonormalise(block)? {
+        for range in Block::ranges(n_locked) {
+            modes.append(&self.inverse.to_nodes(&self.basis.block(range)));
+        }
+        let coordinates = self.improved(ritz, n_vectors - n_locked);
+        let present = self.basis.len();
+        if let Some(next) = &self.next {
+            self.basis.append(next);
+        }
+        for range in Block::ranges(n_vectors - n_locked) {
+            let block = self.basis.combine(coordinates.as_ref().subcols(range.start, range.len()));
+            if let Some(block) = modes.orthonormalise(self.inverse.to_nodes(&block))? {
                 modes.append(&block);
             }
         }
-        self.spend(2 * modes.len())?;
+        self.basis.truncate(present);
+        self.spend(modes.len())?;
         Modes::in_span(self.w, modes)
     }
 
-    /// Some of the vectors û.
-    fn improved(&self, ritz: &Ritz, first: usize, count: usize) -> Block {
-        let y = ritz.coordinates.as_ref().subcols(first, count);
-        let coordinates =
-            Mat::from_fn(self.basis.len(), count, |i, k| match i.checked_sub(self.locked.len()) {
-                Some(i) => y[(i, k)],
-                None => 0.0,
-            });
-        let mut block = self.basis.combine(coordinates.as_ref());
-        if let Some(next) = &self.next {
-            let rest: Mat<f64> = &self.coupling * y;
-            let rest = Mat::from_fn(rest.nrows(), count, |i, k| rest[(i, k)] / ritz.nu[first + k]);
-            block.add_scaled(&next.combine(rest.as_ref()), &vec![1.0; count]);
-        }
-        block
+    /// The coordinates of the first vectors û in those locked, V and Q.
+    fn improved(&self, ritz: &Ritz, count: usize) -> Mat<f64> {
+        let (first, last) = (self.locked.len(), self.basis.len());
+        let y = ritz.coordinates.as_ref().subcols(0, count);
+        let n_next = self.next.as_ref().map_or(0, Block::width);
+        let rest = if n_next > 0 { &self.coupling * y } else { Mat::new() };
+        let coordinate = |i: usize, k: usize| match i.checked_sub(last) {
+            Some(q) => rest[(q, k)] / ritz.nu[k],
+            None => i.checked_sub(first).map_or(0.0, |i| y[(i, k)]),
+        };
+        Mat::from_fn(last + n_next, count, coordinate)
     }
 
     /// The modes, if they are accurate and none is missing; otherwise what is to change is changed.
@@ -322,8 +342,11 @@ impl<'a> Search<'a> {
             self.strictness *= 0.1;
             return if self.next.is_some() { Ok(()) } else { Err(self.exhausted()) };
         }
-        let (found, rest) = modes.vectors_from(n_accurate, WIDTH);
-        self.basis = found;
+        let vectors = |range| self.inverse.to_elimination(&modes.basis.block(range));
+        self.basis = Basis::empty(modes.basis.n_rows());
+        Block::ranges(n_accurate).for_each(|range| self.basis.append(&vectors(range)));
+        let others = n_accurate..modes.values.len().min(n_accurate + WIDTH);
+        let rest = (!others.is_empty()).then(|| vectors(others));
         self.locked = modes.values[..n_accurate].to_vec();
         (self.projected, self.coupled, self.next) = (Projection::default(), 0, None);
         self.next = rest.map_or(Ok(None), |rest| self.basis.orthonormalise(rest))?;

@@ -36,7 +36,9 @@ impl<'a> Lanczos<'a> {
     ///
     /// - `scale`: max_i |w_ii|.
     pub fn from(mut start: Block, links: &'a Links<'a>, scale: f64) -> Self {
-        assert!(start.normalise_each(0.0), "a sequence from a vector of norm zero");
+        let norm = start.norms()[0];
+        assert!(norm > 0.0, "a sequence from a vector of norm zero");
+        start.scale_nodes(|_| 1.0 / norm);
         let weights = links.scale().par_iter().map(|scale| 1.0 / (scale * scale)).collect();
         let before = Block::zeros(start.n_rows(), 1);
         let now = links.to_node_space(start);

@@ -12,6 +12,7 @@ mod chebyshev;
 mod completeness;
 mod davidson;
 mod dense;
+mod dissection;
 mod eigenspace;
 mod error;
 mod expansion;

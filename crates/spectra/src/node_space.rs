@@ -1,10 +1,12 @@
 //! From eigenvectors u of S to those of W in node space: v = D^{-1/2} u, unit 2-norm, fixed sign.
 
 use graph::{CouplingMatrix, SparseMatrix};
+use rayon::prelude::*;
 
-use crate::basis::{Eigenpairs, add_scaled, norm, orthonormalise_against};
+use crate::basis::{Eigenpairs, orthonormalise_against};
+use crate::block::Block;
 use crate::completeness::Found;
-use crate::product::multiply;
+use crate::product::multiply_block;
 use crate::request::Plan;
 use crate::{Solver, SpectraError, Spectrum, Verification, eigenspace};
 
@@ -30,13 +32,15 @@ pub(crate) fn spectrum(
         });
     }
     let eigenspaces = eigenspace::eigenspaces(&pairs.values, plan.grouping);
-    let mut eigenvectors = Vec::with_capacity(pairs.len());
     let mut symmetric_vectors = pairs.vectors.into_iter();
-    for range in &eigenspaces {
-        let us = symmetric_vectors.by_ref().take(range.len());
-        eigenvectors.extend(orthonormal_in_node_space(us, w.scale()));
-    }
-    let pairs = Eigenpairs { values: pairs.values, vectors: eigenvectors };
+    let spaces: Vec<Vec<Vec<f64>>> = eigenspaces
+        .iter()
+        .map(|range| symmetric_vectors.by_ref().take(range.len()).collect())
+        .collect();
+    let in_node_space = |us: Vec<Vec<f64>>| orthonormal_in_node_space(us, w.scale());
+    let vectors: Vec<Vec<Vec<f64>>> = spaces.into_par_iter().map(in_node_space).collect();
+    let pairs =
+        Eigenpairs { values: pairs.values, vectors: vectors.into_iter().flatten().collect() };
     Ok(Spectrum {
         residuals: residuals(w.matrix(), &pairs),
         eigenvalues: pairs.values,
@@ -51,7 +55,7 @@ pub(crate) fn spectrum(
 }
 
 /// An orthonormal basis of the span of D^{-1/2} u over the u of one eigenspace.
-fn orthonormal_in_node_space(us: impl Iterator<Item = Vec<f64>>, scale: &[f64]) -> Vec<Vec<f64>> {
+fn orthonormal_in_node_space(us: Vec<Vec<f64>>, scale: &[f64]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for mut v in us {
         for (v_i, scale_i) in v.iter_mut().zip(scale) {
@@ -79,15 +83,15 @@ fn fix_sign(v: &mut [f64]) {
 
 /// ‖M v − λ v‖ of each pair.
 fn residuals(matrix: &SparseMatrix, pairs: &Eigenpairs) -> Vec<f64> {
-    let mut image = vec![0.0; matrix.rows()];
-    let modes = pairs.values.iter().zip(&pairs.vectors);
-    modes
-        .map(|(&lambda, v)| {
-            multiply(matrix, v, &mut image);
-            add_scaled(-lambda, v, &mut image);
-            norm(&image)
-        })
-        .collect()
+    let ranges = Block::ranges(pairs.len());
+    let residuals = ranges.flat_map(|range| {
+        let vectors = Block::from_vectors(&pairs.vectors[range.clone()]);
+        let mut rest = multiply_block(matrix, &vectors);
+        let minus: Vec<f64> = pairs.values[range].iter().map(|lambda| -lambda).collect();
+        rest.add_scaled(&vectors, &minus);
+        rest.norms()
+    });
+    residuals.collect()
 }
 
 #[cfg(test)]
@@ -111,7 +115,7 @@ mod tests {
     #[test]
     fn vectors_of_one_eigenspace_become_orthonormal_after_scaling() {
         let us = vec![vec![0.6, 0.8, 0.0], vec![-0.8, 0.6, 0.0], vec![0.0, 0.0, 1.0]];
-        let vs = orthonormal_in_node_space(us.into_iter(), &[1.0, 0.1, 3.0]);
+        let vs = orthonormal_in_node_space(us, &[1.0, 0.1, 3.0]);
         for (i, v) in vs.iter().enumerate() {
             for (j, other) in vs.iter().enumerate() {
                 let product = crate::basis::dot(v, other);

@@ -70,7 +70,7 @@ impl Basis {
                 return chunk.extend_from_slice(part);
             }
             for v in 0..width {
-                chunk.extend(part.iter().skip(v).step_by(width));
+                chunk.extend(part.chunks_exact(width).map(|row| row[v]));
             }
         });
         self.n_vectors += width;
@@ -87,8 +87,17 @@ impl Basis {
 
     /// Some neighbouring vectors as a block.
     pub fn block(&self, range: Range<usize>) -> Block {
-        let unit = |i, k: usize| if i == range.start + k { 1.0 } else { 0.0 };
-        self.combine(Mat::from_fn(self.n_vectors, range.len(), unit).as_ref())
+        let width = range.len();
+        let mut block = Block::zeros(self.n_rows, width);
+        let parts = block.data_mut().par_chunks_mut(ROWS * width);
+        self.chunks.par_iter().zip(parts).for_each(|(chunk, part)| {
+            let n_rows = part.len() / width;
+            let vectors = chunk[range.start * n_rows..range.end * n_rows].chunks(n_rows);
+            for (v, vector) in vectors.enumerate() {
+                part.chunks_exact_mut(width).zip(vector).for_each(|(row, entry)| row[v] = *entry);
+            }
+        });
+        block
     }
 
     /// A basis of the first vectors.
@@ -127,6 +136,22 @@ impl Basis {
     /// Y ← Y − V C for some vectors of the basis.
     pub fn subtract(&self, range: Range<usize>, block: &mut Block, c: MatRef<'_, f64>) {
         self.accumulate(range, block, c, Accum::Add, -1.0);
+    }
+
+    /// ‖y_k − λ_k v_k‖ for the vectors y_k of another basis.
+    pub fn residuals(&self, images: &Self, lambda: &[f64]) -> Vec<f64> {
+        assert_eq!((self.n_vectors, self.n_vectors), (images.n_vectors, lambda.len()), "pairs");
+        let partial = |(v, y): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+            let n_rows = v.len() / self.n_vectors;
+            let pairs = v.chunks(n_rows).zip(y.chunks(n_rows)).zip(lambda);
+            let square = |(y_i, v_i): (&f64, &f64), l: f64| (y_i - l * v_i).powi(2);
+            pairs
+                .map(|((v, y), &l)| y.iter().zip(v).map(|entries| square(entries, l)).sum())
+                .collect()
+        };
+        let partials: Vec<_> = self.chunks.par_iter().zip(&images.chunks).map(partial).collect();
+        let square = |k: usize| partials.iter().map(|partial| partial[k]).sum::<f64>();
+        (0..self.n_vectors).map(|k| square(k).sqrt()).collect()
     }
 
     /// Y ← Y − V (Vᵀ Y).
@@ -189,21 +214,18 @@ impl Basis {
         n_vectors: usize,
         mut block: Block,
     ) -> Result<Option<Block>, SpectraError> {
-        if !block.normalise_each(0.0) {
-            return Ok(None);
-        }
+        let mut before = block.norms();
         for _ in 0..MOST_ROUNDS {
             self.project_out_first(n_vectors, &mut block);
-            let kept = block.norms().into_iter().fold(1.0, f64::min);
-            if !block.normalise_each(NOISE) {
-                return Ok(None);
-            }
-            let Some(least) = block.orthonormalise()? else {
+            let noise: Vec<f64> = before.iter().map(|norm| NOISE * norm).collect();
+            let Some(found) = block.orthonormalise(&noise)? else {
                 return Ok(None);
             };
-            if kept * least > CLEAN {
+            let is_clean = |(norm, before): (&f64, &f64)| norm * found.least > CLEAN * before;
+            if found.norms.iter().zip(&before).all(is_clean) {
                 return Ok(Some(block));
             }
+            before = vec![1.0; block.width()];
         }
         Ok(None)
     }
@@ -228,7 +250,7 @@ impl Basis {
     }
 
     /// Keeps the first vectors.
-    fn truncate(&mut self, n_vectors: usize) {
+    pub fn truncate(&mut self, n_vectors: usize) {
         let rows: Vec<usize> = self.chunk_rows().collect();
         for (chunk, n_rows) in self.chunks.iter_mut().zip(rows) {
             chunk.truncate(n_vectors * n_rows);

@@ -25,40 +25,23 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// Those of a span, with two products a vector.
+    /// Those of a span, with one product a vector.
     pub fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
         let n_vectors = basis.len();
-        let images = |basis: &Basis, call: &mut dyn FnMut(usize, &Block, Block)| {
-            for range in Block::ranges(n_vectors) {
-                let block = basis.block(range.clone());
-                let image = multiply_block(w.symmetric(), &block);
-                call(range.start, &block, image);
-            }
-        };
+        let mut images = Basis::empty(basis.n_rows());
         let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
-        images(&basis, &mut |first, _, image| {
+        for range in Block::ranges(n_vectors) {
+            let image = multiply_block(w.symmetric(), &basis.block(range.clone()));
             let overlaps = basis.overlaps(&image);
-            projected.as_mut().subcols_mut(first, image.width()).copy_from(&overlaps);
-        });
+            projected.as_mut().subcols_mut(range.start, range.len()).copy_from(&overlaps);
+            images.append(&image);
+        }
         let pairs =
             symmetric_eigen(n_vectors, |i, j| 0.5 * (projected[(i, j)] + projected[(j, i)]))?;
         basis.transform(pairs.vectors.as_ref());
-        let mut residuals = Vec::with_capacity(n_vectors);
-        images(&basis, &mut |first, block, mut image| {
-            let minus: Vec<f64> =
-                pairs.values[first..first + block.width()].iter().map(|l| -l).collect();
-            image.add_scaled(block, &minus);
-            residuals.extend(image.norms());
-        });
+        images.transform(pairs.vectors.as_ref());
+        let residuals = basis.residuals(&images, &pairs.values);
         Ok(Self { values: pairs.values, basis, residuals })
-    }
-
-    /// The first vectors, and some of the others.
-    pub fn vectors_from(&self, n_vectors: usize, width: usize) -> (Basis, Option<Block>) {
-        let mut first = Basis::empty(self.basis.n_rows());
-        (0..n_vectors).for_each(|k| first.push(&self.basis.vector(k)));
-        let others = n_vectors..self.basis.len().min(n_vectors + width);
-        (first, (!others.is_empty()).then(|| self.basis.block(others)))
     }
 
     /// The first of them, with the products that they took.

@@ -11,6 +11,10 @@ use std::borrow::Cow;
 
 use graph::SparseMatrix;
 
+/// A cut is small when its square is smaller than the component by this factor: what it fills counts
+/// for little.
+const SMALL: usize = 100;
+
 const UNSEEN: u32 = u32::MAX;
 
 /// What the levels of breadth-first searches tell of a network.
@@ -20,12 +24,15 @@ pub(crate) struct Shape {
     /// Levels of the longest component: a polynomial of S of a lower degree does not even carry a
     /// signal from one end to the other.
     pub levels: usize,
+    /// The nodes of a small level that cuts the largest component in halves, if there is one.
+    pub cut: Option<Vec<u32>>,
 }
 
 /// Searches the network.
 pub(crate) fn shape(matrix: &SparseMatrix) -> Shape {
     let mut core = Core::of(matrix);
-    let mut shape = Shape { fill: 0.0, levels: 0 };
+    let mut shape = Shape { fill: 0.0, levels: 0, cut: None };
+    let mut largest = 0;
     for first in 0..matrix.rows() {
         if core.taken[first] {
             continue;
@@ -36,6 +43,10 @@ pub(crate) fn shape(matrix: &SparseMatrix) -> Shape {
         let width = levels.narrowest() as f64;
         shape.fill += 0.5 * width * width;
         shape.levels = shape.levels.max(levels.sizes.len());
+        if levels.nodes.len() > largest {
+            largest = levels.nodes.len();
+            shape.cut = levels.cut();
+        }
     }
     shape
 }
@@ -113,6 +124,19 @@ impl<'a> Core<'a> {
 impl Levels {
     fn last_node(&self) -> usize {
         self.nodes[self.nodes.len() - 1] as usize
+    }
+
+    /// The level of the middle node, if it is small.
+    fn cut(&self) -> Option<Vec<u32>> {
+        let total = self.nodes.len();
+        let mut before = 0;
+        let cut = self.sizes.iter().find_map(|&size| {
+            let level = before..before + size;
+            before += size;
+            (2 * before > total).then_some(level)
+        });
+        cut.filter(|level| level.len().pow(2) <= total / SMALL)
+            .map(|level| self.nodes[level].to_vec())
     }
 
     /// The size of the smallest level with at most three quarters of the nodes before and behind it.
