@@ -10,7 +10,7 @@ const HIGHEST_DEGREE: usize = 24;
 /// rounding leaves of modes found then stays small.
 const LARGEST_GAIN: f64 = 1e10;
 /// A sequence may amplify known eigenvectors by this much before they are projected out again.
-const STRETCH_GAIN: f64 = 1e6;
+const STRETCH_GAIN: f64 = 1e9;
 
 /// T_d(t(S)), whose largest eigenvalues belong to the wanted eigenvectors.
 pub(crate) struct Amplifier<'a> {

@@ -24,7 +24,9 @@ const FEWEST_STEPS: usize = 100;
 /// Steps before the first look at Ritz values.
 const FIRST_LOOK: usize = 60;
 /// By which factor the next look may be later.
-const NEXT_LOOK: (f64, f64) = (1.02, 1.3);
+const NEXT_LOOK: (f64, f64) = (1.01, 1.3);
+/// By how much sooner residuals fall than at the pace so far.
+const PACE_GROWS: f64 = 0.9;
 /// Ritz vectors handed over beyond those asked for: they serve verification.
 const GUARDS: usize = 8;
 /// A Ritz pair with so small a residual, relatively, is about to come back.
@@ -34,7 +36,7 @@ const MOST_AHEAD: f64 = 2.0;
 /// A Ritz vector with so small a part of the first vector is not one of the matrix.
 const SPURIOUS: f64 = 1e-8;
 /// By how much smaller than asked for residuals are to be: to the next step they are estimates.
-const STRICTLY: f64 = 0.3;
+const STRICTLY: f64 = 0.45;
 
 /// A sequence to be run.
 pub(crate) struct LongSequence<'a> {
@@ -78,7 +80,7 @@ impl LongSequence<'_> {
         let mut vectors = Basis::with_room(start.n_rows(), most_steps);
         let mut norms = Vec::new();
         let mut lanczos = Lanczos::from(start, self.links, self.scale);
-        let mut next_look = FIRST_LOOK;
+        let (mut next_look, mut before) = (FIRST_LOOK, None);
         loop {
             let (vector, norm) = lanczos.newest();
             vectors.append(vector);
@@ -86,9 +88,10 @@ impl LongSequence<'_> {
             let last = !lanczos.step() || lanczos.steps() == most_steps;
             if last || lanczos.steps() == next_look {
                 let ritz = Ritz::of(&lanczos, self.grouping, &needed)?;
-                next_look = ritz.next_look(STRICTLY * self.residual_bound / self.scale);
+                next_look = ritz.next_look(STRICTLY * self.residual_bound, self.scale, before);
+                before = Some((lanczos.steps(), ritz.worst()));
                 if last || ritz.converged(STRICTLY * self.residual_bound) || self.is_spent(&ritz) {
-                    return Ok((self.combine(&vectors, &norms, &ritz), lanczos.steps()));
+                    return Ok((self.combine(vectors, &norms, &ritz), lanczos.steps()));
                 }
             }
             if lanczos.steps().is_multiple_of(self.stretch) {
@@ -105,15 +108,12 @@ impl LongSequence<'_> {
     }
 
     /// The Ritz vectors, in the coordinates of S.
-    fn combine(&self, vectors: &Basis, norms: &[f64], ritz: &Ritz) -> Vec<Block> {
-        let weight = |k: usize, j: usize| ritz.coordinates[(k, j)] / norms[k];
-        let blocks = Block::ranges(ritz.residuals.len()).map(|range| {
-            let of = |k, j| weight(k, range.start + j);
-            let weights = Mat::from_fn(norms.len(), range.len(), of);
-            let block = vectors.combine(weights.as_ref());
-            self.links.to_symmetric(block)
-        });
-        blocks.collect()
+    fn combine(&self, mut vectors: Basis, norms: &[f64], ritz: &Ritz) -> Vec<Block> {
+        let count = ritz.residuals.len();
+        let weights = Mat::from_fn(norms.len(), count, |k, j| ritz.coordinates[(k, j)] / norms[k]);
+        vectors.transform(weights.as_ref());
+        let to_symmetric = |range| self.links.to_symmetric(vectors.block(range));
+        Block::ranges(count).map(to_symmetric).collect()
     }
 }
 
@@ -150,11 +150,20 @@ impl Ritz {
         self.residuals[..self.needed].iter().copied().fold(0.0, f64::max)
     }
 
-    /// After how many steps to look again: half of the way on which residuals, at the pace so far, fall
-    /// to the relative bound. At first they fall more slowly.
-    fn next_look(&self, bound: f64) -> usize {
-        let steps = self.coordinates.nrows() as f64;
-        (steps * (0.5 + 0.5 * self.way(bound)).clamp(NEXT_LOOK.0, NEXT_LOOK.1)).ceil() as usize
+    /// After how many steps to look again: a little before residuals are below the bound at the pace since
+    /// the look before, because the pace grows; half of the way at the pace so far, where they have not
+    /// fallen since.
+    fn next_look(&self, bound: f64, scale: f64, before: Option<(usize, f64)>) -> usize {
+        let (steps, worst) = (self.coordinates.nrows() as f64, self.worst());
+        let fallen = before.filter(|&(_, worst_before)| worst_before > worst);
+        let ahead = match fallen {
+            Some((steps_before, worst_before)) => {
+                let pace = (worst_before / worst).ln() / (steps - steps_before as f64);
+                PACE_GROWS * (worst / bound).ln() / pace
+            }
+            None => 0.5 * steps * (self.way(bound / scale) - 1.0),
+        };
+        (steps + ahead).clamp(NEXT_LOOK.0 * steps, NEXT_LOOK.1 * steps).ceil() as usize
     }
 
     /// All steps that residuals need to fall to the relative bound, at the pace so far, by those done.

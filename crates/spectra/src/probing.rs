@@ -27,6 +27,8 @@ use crate::random::Random;
 
 /// The probability of a miss that probing aims at.
 const MISS: f64 = 1e-6;
+/// The probability with which it is content: θ may come to lie higher than expected.
+const SMALL_ENOUGH: f64 = 1e-5;
 /// Filters that probes pass at most.
 const MOST_FILTERS: usize = 5;
 /// Degree of a first filter where no affordable one would prove anything: the probes may still show
@@ -83,8 +85,8 @@ impl Passed {
 impl Probe {
     /// Sends the probes through the complement of the first `n_modes` vectors of the basis.
     ///
-    /// The polynomial is a product of a few Chebyshev polynomials, each with the largest Ritz value
-    /// so far as its c: their gains multiply.
+    /// The polynomial is a product of a few Chebyshev polynomials, each with the largest eigenvalue
+    /// expected, or seen so far, as its c: their gains multiply.
     pub fn send(
         &self,
         links: &Links<'_>,
@@ -97,12 +99,14 @@ impl Probe {
         let enough = MISS.ln() / probes as f64;
         let clean = |block: &mut Block| basis.project_out_first(n_modes, block);
         let mut passed = Vec::new();
-        let (mut theta, mut products, mut miss) = (self.expected, 0, 0.0);
+        // When nothing is missing, the largest Ritz value comes to lie in the middle of the bulk.
+        let mut theta = self.expected.min(0.5 * (self.low + self.limit));
+        let (mut products, mut miss) = (0, 0.0);
         let mut block = Some(random.block(n_rows, probes));
         while let Some(mut probes_now) = block.take() {
-            let unwanted = self.unwanted(theta);
+            let unwanted = self.unwanted(theta.max(self.expected));
             let most = self.max_products.saturating_sub(products) / probes_now.width();
-            let needed = self.degree(n_rows, &passed, unwanted, enough);
+            let needed = self.degree(n_rows, &passed, (unwanted, theta), enough);
             let degree = if needed <= most { needed } else { most.min(HOPELESS) };
             if degree == 0 || (needed > most && !passed.is_empty()) {
                 block = Some(probes_now);
@@ -117,7 +121,10 @@ impl Probe {
                 block.as_ref().map_or(Ok(self.low), |block| largest_ritz_value(links, block))?;
             passed.push(Passed { unwanted, degree });
             miss = self.log_miss(n_rows, &passed, theta).min(0.0);
-            if miss <= enough || theta >= self.limit || passed.len() == MOST_FILTERS {
+            if miss <= SMALL_ENOUGH.ln() / probes as f64
+                || theta >= self.limit
+                || passed.len() == MOST_FILTERS
+            {
                 break;
             }
         }
@@ -130,11 +137,14 @@ impl Probe {
         Interval { low: self.low.min(high - 0.05 * (self.top - self.low)), high }
     }
 
-    /// The degree that leaves a miss as improbable as aimed at, if θ stays as it is; at first, if it
-    /// comes to lie in the middle of the bulk, as it does when nothing is missing.
-    fn degree(&self, n_rows: usize, passed: &[Passed], unwanted: Interval, enough: f64) -> usize {
-        let middle = 0.5 * (self.low + self.limit);
-        let theta = if passed.is_empty() { middle.min(unwanted.high) } else { unwanted.high };
+    /// The degree that leaves a miss as improbable as aimed at, if θ stays as it is.
+    fn degree(
+        &self,
+        n_rows: usize,
+        passed: &[Passed],
+        (unwanted, theta): (Interval, f64),
+        enough: f64,
+    ) -> usize {
         let missing = self.log_miss(n_rows, passed, theta) - enough;
         let per_degree = unwanted.growth(self.limit);
         // cosh x ≥ ½ eˣ
