@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::metric::{Bounds, Metric};
+use crate::metric::Metric;
 
 /// Most rows that are looked at to choose a cut.
 const SAMPLE: usize = 128;
@@ -128,6 +128,32 @@ fn cut(mut some: Vec<f64>, low: f64, high: f64) -> f64 {
     let median = some[n / 2];
     let above = some.partition_point(|&x| x <= median);
     some.get(above).copied().unwrap_or(if median > low { median } else { high })
+}
+
+/// A box around rows: the least and the largest component in each column.
+#[derive(Clone, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) low: Vec<f64>,
+    pub(crate) high: Vec<f64>,
+}
+
+impl Bounds {
+    pub(crate) fn of_row(row: &[f64]) -> Self {
+        Self { low: row.to_vec(), high: row.to_vec() }
+    }
+
+    pub(crate) fn include(&mut self, row: &[f64]) {
+        for ((low, high), &x) in self.low.iter_mut().zip(&mut self.high).zip(row) {
+            *low = if x < *low { x } else { *low };
+            *high = if x > *high { x } else { *high };
+        }
+    }
+
+    /// The column along which it is longest.
+    pub(crate) fn longest_side(&self) -> usize {
+        let sides = self.low.iter().zip(&self.high).map(|(low, high)| high - low).enumerate();
+        sides.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(column, _)| column)
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod assignment;
 mod cascade;
 mod cascade_tree;
 mod cells;
+mod coordinates;
 mod correlation;
 mod disjoint_sets;
 mod distance;

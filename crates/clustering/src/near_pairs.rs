@@ -9,6 +9,8 @@
 //! linked; between nodes of one cluster and nodes of another, one link is enough; and nodes that are
 //! in the other side's one cluster already need no more.
 //!
+//! Space is that of [`crate::coordinates`], which bound the distance.
+//!
 //! Few modes take O(N log N) where cells are linked at once or strips are short, as on lines and
 //! surfaces, and a factor log N more in clouds without structure while strips are narrow. Where every
 //! node is within the threshold of some others in a cloud of six or more dimensions, the threshold is
@@ -21,9 +23,9 @@ use std::cell::Cell as Shared;
 use std::ops::Range;
 
 use crate::Partition;
-use crate::cells::{Points, Rows};
+use crate::cells::{Bounds, Points, Rows};
+use crate::coordinates::Coordinates;
 use crate::disjoint_sets::DisjointSets;
-use crate::metric::{Bounds, Metric};
 
 /// Most nodes of a cell that is not halved: measured, as the next two, and of no consequence but for
 /// the time.
@@ -48,15 +50,20 @@ pub(crate) fn clusters_within_groups(
 ) -> Option<Partition> {
     let members = groups.members();
     let sets = DisjointSets::new(members.nodes.len());
-    let mut linkage = Linkage { metric: points.metric, threshold, sets, work };
-    let mut rows = Rows::new(points.metric.width());
+    let coordinates = Coordinates::new(points, threshold);
+    let mut row = vec![0.0; coordinates.order()];
+    let mut rows = Rows::new(coordinates.order());
+    let mut linkage = Linkage { points, threshold, coordinates, sets, work };
     for group in members.clusters().filter(|group| group.len() > 1) {
         if group.len() <= LEAF {
-            linkage.link_all(points, group);
+            linkage.link_all(group);
             continue;
         }
         rows.restart(group.len());
-        group.iter().for_each(|&node| rows.push(node, points.row(node as usize)));
+        for &node in group {
+            linkage.coordinates.write(points.row(node as usize), &mut row);
+            rows.push(node, &row);
+        }
         linkage.link_within(&mut rows, 0..group.len());
     }
     let is_done = *linkage.work > 0;
@@ -64,8 +71,10 @@ pub(crate) fn clusters_within_groups(
 }
 
 struct Linkage<'a> {
-    metric: &'a Metric,
+    points: Points<'a>,
     threshold: f64,
+    /// Coordinates of the rows, in which cells and strips are cut.
+    coordinates: Coordinates,
     sets: DisjointSets,
     /// How many components may still be looked at.
     work: &'a mut usize,
@@ -92,14 +101,11 @@ struct Part<'a> {
 
 impl Linkage<'_> {
     /// Links all pairs of a few nodes.
-    fn link_all(&mut self, points: Points, nodes: &[u32]) {
+    fn link_all(&mut self, nodes: &[u32]) {
         for (k, &i) in nodes.iter().enumerate() {
             self.spend(nodes.len() - k);
             for &j in &nodes[k + 1..] {
-                let (a, b) = (points.row(i as usize), points.row(j as usize));
-                if self.metric.distance_up_to(self.threshold, a, b) <= self.threshold {
-                    self.sets.join(i, j);
-                }
+                self.link_nodes(i, j);
             }
         }
     }
@@ -108,7 +114,7 @@ impl Linkage<'_> {
     fn link_within(&mut self, rows: &mut Rows, places: Range<usize>) -> Cell {
         self.spend(places.len());
         let bounds = rows.bounds(places.clone());
-        if self.metric.diameter_up_to(self.threshold, &bounds) <= self.threshold {
+        if self.coordinates.are_linked(&bounds) {
             let nodes = rows.nodes(places.clone());
             nodes[1..].iter().for_each(|&node| self.sets.join(nodes[0], node));
             return Cell { places, bounds, is_whole: true.into(), halves: None };
@@ -119,7 +125,7 @@ impl Linkage<'_> {
                 (i + 1..places.end).for_each(|j| _ = self.link(rows, i, rows, j));
             }
         } else if *self.work > 0 {
-            let middle = rows.halve(places.clone(), self.metric.longest_side(&bounds), &bounds);
+            let middle = rows.halve(places.clone(), bounds.longest_side(), &bounds);
             let left = self.link_within(rows, places.start..middle);
             let right = self.link_within(rows, middle..places.end);
             self.link_cells(rows, &left, &right);
@@ -135,7 +141,7 @@ impl Linkage<'_> {
             return;
         }
         let (small, large) = if a.places.len() < b.places.len() { (a, b) } else { (b, a) };
-        let (column, width) = self.metric.narrowest_overlap(self.threshold, &a.bounds, &b.bounds);
+        let (column, width) = self.coordinates.narrowest_overlap(&a.bounds, &b.bounds);
         match &large.halves {
             Some(halves) if width > NARROW => {
                 halves.iter().for_each(|half| self.link_cells(rows, small, half));
@@ -158,8 +164,7 @@ impl Linkage<'_> {
         }
         let around_small = small.bounds(0..small.len());
         let around_large = large.bounds(0..large.len());
-        let middle =
-            large.halve(0..large.len(), self.metric.longest_side(&around_large), &around_large);
+        let middle = large.halve(0..large.len(), around_large.longest_side(), &around_large);
         for places in [0..middle, middle..large.len()] {
             let bounds = large.bounds(places.clone());
             let cluster = self.cluster_of(large.nodes(places.clone()));
@@ -167,8 +172,7 @@ impl Linkage<'_> {
             let (places, cluster) = (0..small.len(), self.cluster_of(small.nodes(0..small.len())));
             let small = Part { rows: &small, places, bounds: &around_small, cluster };
             if !self.are_settled(&half, &small) {
-                let (column, _) =
-                    self.metric.narrowest_overlap(self.threshold, &bounds, &around_small);
+                let (column, _) = self.coordinates.narrowest_overlap(&bounds, &around_small);
                 self.link_strips(&half, &small, column);
             }
         }
@@ -188,10 +192,15 @@ impl Linkage<'_> {
     /// Links the nodes in two places if they are near.
     fn link(&mut self, a: &Rows, i: usize, b: &Rows, j: usize) -> bool {
         self.spend(1);
-        let distance = self.metric.distance_up_to(self.threshold, a.row(i), b.row(j));
-        let is_near = distance <= self.threshold;
+        self.coordinates.may_be_linked(a.row(i), b.row(j)) && self.link_nodes(a.node(i), b.node(j))
+    }
+
+    /// Links two nodes if they are near.
+    fn link_nodes(&mut self, i: u32, j: u32) -> bool {
+        let (a, b) = (self.points.row(i as usize), self.points.row(j as usize));
+        let is_near = self.points.metric.distance_up_to(self.threshold, a, b) <= self.threshold;
         if is_near {
-            self.sets.join(a.node(i), b.node(j));
+            self.sets.join(i, j);
         }
         is_near
     }
@@ -200,8 +209,7 @@ impl Linkage<'_> {
     /// first nodes.
     fn are_settled(&mut self, a: &Part, b: &Part) -> bool {
         self.spend(1);
-        let gap = self.metric.gap_up_to(self.threshold, a.bounds, b.bounds);
-        if gap > self.threshold || *self.work == 0 {
+        if !self.coordinates.may_meet(a.bounds, b.bounds) || *self.work == 0 {
             return true;
         }
         a.cluster.zip(b.cluster).is_some_and(|(of_a, of_b)| {
@@ -213,15 +221,15 @@ impl Linkage<'_> {
     fn near(&mut self, part: &Part, other: &Part, column: usize) -> Rows {
         let Part { rows, places, .. } = part;
         self.spend(places.len());
-        let Self { metric, threshold, sets, .. } = self;
-        let reach = metric.reach(*threshold, column);
+        let Self { coordinates, sets, .. } = self;
+        let reach = coordinates.reach;
         let (low, high) = (other.bounds.low[column], other.bounds.high[column]);
-        let mut near = Rows::new(metric.width());
+        let mut near = Rows::new(coordinates.order());
         for (row, &node) in rows.rows(places.clone()).zip(rows.nodes(places.clone())) {
             let x = row[column];
             if low - x <= reach
                 && x - high <= reach
-                && metric.gap_to_row_up_to(*threshold, row, other.bounds) <= *threshold
+                && coordinates.may_be_near(row, other.bounds)
                 && other.cluster.is_none_or(|cluster| sets.root(node) != cluster)
             {
                 near.push(node, row);
@@ -259,7 +267,7 @@ impl Linkage<'_> {
 
     /// Counts the components of this many rows.
     fn spend(&mut self, n_rows: usize) {
-        *self.work = self.work.saturating_sub(n_rows * self.metric.width());
+        *self.work = self.work.saturating_sub(n_rows * self.coordinates.order());
     }
 }
 
@@ -268,7 +276,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::metric::Block;
+    use crate::metric::{Block, Metric};
 
     /// Blocks of these widths and factors.
     fn metric(blocks: &[(usize, f64)]) -> Metric {
@@ -324,35 +332,6 @@ mod tests {
                 let expected = all_pairs(points, threshold, &groups);
                 prop_assert_eq!(clusters(points, threshold, &groups), expected);
             }
-        }
-
-        #[test]
-        fn boxes_promise_no_more_than_rounded_distances_keep(
-            metric in blocks(),
-            places in prop::collection::vec(-1.0..1.0, 6 * 12),
-            threshold in 0.0..3.0,
-        ) {
-            let width = metric.width();
-            let rows: Vec<&[f64]> = places.chunks(width).take(6).collect();
-            let bounds = |rows: &[&[f64]]| {
-                let mut bounds = Bounds::of_row(rows[0]);
-                rows.iter().for_each(|row| bounds.include(row));
-                bounds
-            };
-            let (a, b) = (bounds(&rows[..3]), bounds(&rows[3..]));
-            let gap = metric.gap_up_to(f64::INFINITY, &a, &b);
-            let diameter = metric.diameter_up_to(f64::INFINITY, &a);
-            for x in &rows[..3] {
-                let to_row = metric.gap_to_row_up_to(f64::INFINITY, x, &b);
-                for y in &rows[3..] {
-                    let distance = metric.distance_up_to(f64::INFINITY, x, y);
-                    prop_assert!(gap <= to_row && to_row <= distance);
-                }
-                for y in &rows[..3] {
-                    prop_assert!(metric.distance_up_to(f64::INFINITY, x, y) <= diameter);
-                }
-            }
-            prop_assert_eq!(gap <= threshold, metric.gap_up_to(threshold, &a, &b) <= threshold);
         }
     }
 

@@ -1,4 +1,6 @@
-//! What clusters cost from 10³ to 10⁶ nodes: `clusters/<fixture>_<rule>/<n>`, all modes unstable.
+//! What clusters cost from 10³ to 10⁶ nodes: `clusters/<fixture>_<rule>/<n>`, all modes unstable. Beside
+//! them `clusters/sorted_rows/<n>`: eight components a node, sorted by the first, which is what N log N
+//! comes to where the rows of many nodes no longer fit the cache.
 //!
 //! `cargo bench -p clustering`; a name or a part of one after `--` picks some. With a folder in
 //! `EIGENSYNC_FIXTURES` the rows of eigenvectors are written there instead, with the clusters found,
@@ -11,7 +13,7 @@ use std::path::Path;
 use std::{env, fs, io, io::Write};
 
 use clustering::{EigenvectorDistance, Partition};
-use criterion::{BenchmarkId, Criterion};
+use criterion::{BatchSize, BenchmarkId, Criterion};
 use fixtures::Fixture;
 
 const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
@@ -25,6 +27,14 @@ fn main() -> io::Result<()> {
     let mut group = criterion.benchmark_group("clusters");
     group.sample_size(10);
     for n_nodes in SIZES {
+        let rows = rows(&fixtures::scale_free(n_nodes));
+        group.bench_function(BenchmarkId::new("sorted_rows", n_nodes), |b| {
+            let by_first = |mut rows: Vec<[f64; 8]>| {
+                rows.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+                rows
+            };
+            b.iter_batched(|| rows.clone(), by_first, BatchSize::LargeInput);
+        });
         for fixture in fixtures::all(n_nodes) {
             let (distance, exact, threshold) = clusters(&fixture);
             assert!(exact.is_refinement_of(&threshold));
@@ -42,6 +52,12 @@ fn main() -> io::Result<()> {
     group.finish();
     criterion.final_summary();
     Ok(())
+}
+
+/// The first eight components after the constant one, node by node.
+fn rows(fixture: &Fixture) -> Vec<[f64; 8]> {
+    let modes = &fixture.spectrum.eigenvectors[1..9];
+    (0..modes[0].len()).map(|i| std::array::from_fn(|k| modes[k][i])).collect()
 }
 
 /// The distance with all modes unstable, its exact clusters and those at the threshold.
