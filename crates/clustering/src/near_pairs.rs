@@ -12,7 +12,7 @@
 //! Space is that of [`crate::coordinates`], which bound the distance.
 //!
 //! Few modes take O(N log N) where cells are linked at once or strips are short, as on lines and
-//! surfaces, and a factor log N more in clouds without structure while strips are narrow. Where every
+//! surfaces, and hardly more in clouds without structure as long as strips are narrow. Where every
 //! node is within the threshold of some others in a cloud of six or more dimensions, the threshold is
 //! hardly smaller than the cloud for any N of practice, and it comes to O(N²).
 //!

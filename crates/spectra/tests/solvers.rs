@@ -143,6 +143,25 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
     ]
 }
 
+/// A ring of 400 nodes, which two of them cut in halves, with a leaf on every fifth, and a path of its own.
+#[test]
+fn halves_of_a_thin_cut_and_what_hangs_on_them_have_the_modes_of_the_dense_solver() {
+    let around = (0..400).map(|i| (i, (i + 1) % 400, 1.0 + 0.01 * (i % 7) as f64));
+    let leaves = (400..480).map(|i| (i, 5 * (i - 400), 1.0));
+    let path = (480..499).map(|i| (i, i + 1, 2.0));
+    let network = network(500, &around.chain(leaves).chain(path).collect::<Vec<_>>());
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&network, normalization);
+        let all = solve(&w, &dense());
+        for n_modes in [2, 9, 60] {
+            let leading = solve(&w, &shift_invert(n_modes));
+            assert_eq!(leading.solver, Solver::ShiftInvert);
+            check_eigenvalues(&leading, &all.eigenvalues, 1e-10 * scale(&w));
+            check_same_eigenspaces(&w, &leading, &all);
+        }
+    }
+}
+
 /// Long sequences run into the bulk here, past modes that have long converged and come back as copies.
 #[test]
 fn the_edge_of_a_bulk_behind_well_separated_modes_is_that_of_the_dense_solver() {

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::criterion::Benchmark;
+use super::large::digits;
 
 /// The growth of one operation on one fixture.
 #[derive(Debug, PartialEq)]
@@ -78,7 +79,7 @@ pub fn markdown(benchmarks: &[Benchmark]) -> Option<String> {
         let at = |size: &f64| times.iter().find(|(of, _)| of == size).map(|(_, time)| *time);
         let cells: Vec<String> = sizes
             .iter()
-            .map(|size| at(size).map_or(" |".into(), |time| format!(" {time:.3} |")))
+            .map(|size| at(size).map_or(" |".into(), |time| format!(" {} |", digits(time))))
             .collect();
         writeln!(table, "| {name} |{} {exponent:.2} ± {standard_error:.2} |", cells.concat())
             .expect("a string can always grow");

@@ -171,7 +171,7 @@ impl Operation {
 }
 
 /// Three digits, without an exponent.
-fn digits(seconds: f64) -> String {
+pub(super) fn digits(seconds: f64) -> String {
     let places = (2.0 - seconds.log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{seconds:.places$}")
 }
