@@ -20,9 +20,8 @@
 //!
 //! Source: J. J. Sylvester, Phil. Mag. 34, 461 (1867).
 
-use std::ops::Range;
-
 use crate::cells::{Bounds, Points};
+use crate::metric::{Block, Metric};
 
 /// The square of a number below this may be zero in floating point.
 const SQUARE_VANISHES: f64 = 1e-150;
@@ -40,40 +39,54 @@ pub(crate) struct Coordinates {
     order: usize,
     /// By how much those of rows within the threshold differ at most.
     pub(crate) reach: f64,
-    /// The blocks of the y, whose norms add up to the distance; none of the p.
-    blocks: Option<Vec<Range<usize>>>,
-    /// Rows in a box of at most this diagonal, as the blocks have it, are within the threshold of one
+    /// Whether they are the p.
+    is_signed: bool,
+    /// The distance itself in the y, ‖p‖₂ in the p.
+    metric: Metric,
+    /// Rows in a box whose diagonal in this metric is at most so long are within the threshold of one
     /// another.
     diagonal: f64,
 }
 
 impl Coordinates {
-    /// For the distances of these points, all rounding included.
-    pub(crate) fn new(points: Points, threshold: f64) -> Self {
+    /// For the distances of some of these points, all rounding included.
+    pub(crate) fn new<'n>(
+        points: Points,
+        nodes: impl Iterator<Item = &'n u32>,
+        threshold: f64,
+    ) -> Self {
         let is_signed = points.metric.blocks.len() > 1 && is_cloud(points, threshold);
-        Self::of_kind(is_signed, points, threshold)
+        Self::of_kind(is_signed, points, nodes, threshold)
     }
 
     /// The p, or the y.
-    fn of_kind(is_signed: bool, points: Points, threshold: f64) -> Self {
+    fn of_kind<'n>(
+        is_signed: bool,
+        points: Points,
+        nodes: impl Iterator<Item = &'n u32>,
+        threshold: f64,
+    ) -> Self {
         let blocks = &points.metric.blocks;
         let width = points.metric.width();
         let factors: Vec<f64> =
             blocks.iter().flat_map(|b| b.columns.clone().map(|_| b.factor)).collect();
         let order = if is_signed { width.next_power_of_two() } else { width };
-        let widest = blocks.iter().map(|b| b.columns.len()).max().unwrap_or(1) as f64;
-        let (widest, spread) = match is_signed {
-            true => (widest.sqrt(), (blocks.len() as f64 / order as f64).sqrt()),
-            false => (1.0, 1.0),
+        // What bounds differences in a coordinate, and the diagonal, in units of the distance.
+        let (along, across, metric) = if is_signed {
+            let widest = blocks.iter().map(|b| b.columns.len()).max().unwrap_or(1);
+            let across = (blocks.len() as f64 / order as f64).sqrt();
+            ((widest as f64).sqrt(), across, Metric::euclidean(order))
+        } else {
+            let scaled = blocks.iter().map(|b| Block { columns: b.columns.clone(), factor: 1.0 });
+            (1.0, 1.0, Metric { blocks: scaled.collect() })
         };
         let size = |row: &[f64]| row.iter().zip(&factors).map(|(x, f)| f * x.abs()).sum();
-        let largest = points.rows.chunks_exact(width.max(1)).map(size).fold(0.0, f64::max);
+        let largest = nodes.map(|&node| size(points.row(node as usize))).fold(0.0, f64::max);
         let relative = (order + 8) as f64 * f64::EPSILON;
         let rounding = relative * largest;
-        let reach = (threshold * (1.0 + relative) + rounding) * widest + SQUARE_VANISHES;
-        let diagonal = (threshold - rounding) / spread * (1.0 - relative);
-        let blocks = blocks.iter().map(|b| b.columns.clone()).collect();
-        Self { factors, order, reach, blocks: (!is_signed).then_some(blocks), diagonal }
+        let reach = (threshold * (1.0 + relative) + rounding) * along + SQUARE_VANISHES;
+        let diagonal = (threshold - rounding) / across * (1.0 - relative);
+        Self { factors, order, reach, is_signed, metric, diagonal }
     }
 
     /// How many coordinates there are.
@@ -85,7 +98,7 @@ impl Coordinates {
     pub(crate) fn write(&self, row: &[f64], p: &mut [f64]) {
         p.fill(0.0);
         p.iter_mut().zip(row).zip(&self.factors).for_each(|((p, x), factor)| *p = factor * x);
-        let mut half = if self.blocks.is_some() { p.len() } else { 1 };
+        let mut half = if self.is_signed { 1 } else { p.len() };
         while half < p.len() {
             for pair in p.chunks_exact_mut(2 * half) {
                 let (first, second) = pair.split_at_mut(half);
@@ -118,24 +131,17 @@ impl Coordinates {
     /// Whether rows that are so far apart in each coordinate may be within the threshold.
     #[inline(always)]
     fn is_within_reach(&self, gap: impl Fn(usize) -> f64) -> bool {
-        let Some(blocks) = &self.blocks else {
-            return (0..self.order).all(|c| gap(c) <= self.reach);
-        };
-        let mut sum = 0.0;
-        blocks.iter().all(|columns| {
-            sum += norm(columns.clone(), |c| gap(c).max(0.0));
-            sum <= self.reach
-        })
+        if self.is_signed {
+            (0..self.order).all(|c| gap(c) <= self.reach)
+        } else {
+            self.metric.norm_up_to(self.reach, |c| gap(c).max(0.0)) <= self.reach
+        }
     }
 
     /// Whether all rows in a box are within the threshold of one another.
     pub(crate) fn are_linked(&self, bounds: &Bounds) -> bool {
         let side = |c: usize| bounds.high[c] - bounds.low[c];
-        let diagonal = match &self.blocks {
-            Some(blocks) => blocks.iter().map(|columns| norm(columns.clone(), side)).sum(),
-            None => norm(0..self.order, side),
-        };
-        diagonal <= self.diagonal
+        self.metric.norm_up_to(self.diagonal, side) <= self.diagonal
     }
 
     /// The coordinate in which the least of two boxes is within reach of the other, and which share of
@@ -149,15 +155,6 @@ impl Coordinates {
         let shares = (0..self.order).map(|c| (c, share(c)));
         shares.min_by(|x, y| x.1.total_cmp(&y.1)).expect("rows have columns")
     }
-}
-
-/// The 2-norm of what these coordinates have.
-#[inline(always)]
-fn norm(columns: Range<usize>, magnitude: impl Fn(usize) -> f64) -> f64 {
-    if columns.len() == 1 {
-        return magnitude(columns.start);
-    }
-    columns.map(|c| magnitude(c).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Whether hardly any rows are within the threshold of one another, by some pairs.
@@ -180,7 +177,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::metric::{Block, Metric};
 
     proptest! {
         #[test]
@@ -200,9 +196,10 @@ mod tests {
             // Rows that differ little from one far away, too.
             let rows: Vec<f64> = places.iter().take(6 * width).map(|x| 0.5 + scale * x).collect();
             let points = Points { rows: &rows, metric: &metric };
+            let nodes: Vec<u32> = (0..6).collect();
             for (i, j) in (0..6).flat_map(|i| (0..i).map(move |j| (i, j))) {
                 let distance = metric.distance_up_to(f64::INFINITY, points.row(i), points.row(j));
-                let coordinates = Coordinates::of_kind(is_signed, points, distance);
+                let coordinates = Coordinates::of_kind(is_signed, points, nodes.iter(), distance);
                 let mut p = vec![0.0; 2 * coordinates.order()];
                 let (a, b) = p.split_at_mut(coordinates.order());
                 coordinates.write(points.row(i), a);
@@ -211,7 +208,7 @@ mod tests {
                 prop_assert!(coordinates.may_be_linked(a, b) && coordinates.may_be_near(a, &around_b));
                 prop_assert!(coordinates.may_meet(&around_a, &around_b));
                 around_a.include(b);
-                let less = Coordinates::of_kind(is_signed, points, distance * (1.0 - 1e-13) - 1e-300);
+                let less = Coordinates::of_kind(is_signed, points, nodes.iter(), distance * (1.0 - 1e-13) - 1e-300);
                 prop_assert!(!less.are_linked(&around_a));
             }
         }
@@ -226,7 +223,7 @@ mod tests {
         let points = Points { rows: &rows, metric: &metric };
         let mut p = [0.0; 4];
         for (threshold, expected) in [(0.199, false), (0.2, true)] {
-            let coordinates = Coordinates::of_kind(true, points, threshold);
+            let coordinates = Coordinates::of_kind(true, points, [0, 1].iter(), threshold);
             coordinates.write(points.row(1), &mut p);
             assert_eq!(p.map(f64::abs), [0.2; 4]);
             assert_eq!(coordinates.may_be_linked(&p, &[0.0; 4]), expected);

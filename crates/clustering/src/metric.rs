@@ -31,7 +31,7 @@ impl Metric {
     /// ‖x‖ of the |x_c| given if that is at most `limit`, otherwise some value between `limit` and
     /// ‖x‖.
     #[inline(always)]
-    fn norm_up_to(&self, limit: f64, magnitude: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn norm_up_to(&self, limit: f64, magnitude: impl Fn(usize) -> f64) -> f64 {
         let mut sum = 0.0;
         for block in &self.blocks {
             sum += block.factor * block.norm(&magnitude);

@@ -50,7 +50,8 @@ pub(crate) fn clusters_within_groups(
 ) -> Option<Partition> {
     let members = groups.members();
     let sets = DisjointSets::new(members.nodes.len());
-    let coordinates = Coordinates::new(points, threshold);
+    let large = members.clusters().filter(|group| group.len() > LEAF);
+    let coordinates = Coordinates::new(points, large.flatten(), threshold);
     let mut row = vec![0.0; coordinates.order()];
     let mut rows = Rows::new(coordinates.order());
     let mut linkage = Linkage { points, threshold, coordinates, sets, work };
