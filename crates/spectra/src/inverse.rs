@@ -201,23 +201,12 @@ impl<const B: usize> Rows<'_, B> {
         }
     }
 
-    /// How many rows of the rectangle belong to this part.
-    #[inline(always)]
-    fn n_inside(&self, panel: &Panel<'_>) -> usize {
-        let is_inside = |&i: &u32| (i as usize) < self.beyond;
-        if panel.below.last().is_none_or(is_inside) {
-            panel.below.len()
-        } else {
-            panel.below.partition_point(is_inside)
-        }
-    }
-
     /// The rectangle's part of Y ← L⁻¹ Y for C columns.
     fn below_down<const C: usize>(&mut self, panel: &Panel<'_>, k: usize, above: &mut [[f64; B]]) {
         let columns = rectangle::<C>(panel, k);
         let first = panel.start - self.first + k;
         let x: [[f64; B]; C] = std::array::from_fn(|k| self.part[first + k]);
-        let n_inside = self.n_inside(panel);
+        let n_inside = panel.below.partition_point(|&i| (i as usize) < self.beyond);
         for (r, &i) in panel.below.iter().enumerate() {
             let y_i = if r < n_inside {
                 &mut self.part[i as usize - self.first]
@@ -237,7 +226,7 @@ impl<const B: usize> Rows<'_, B> {
         let columns = rectangle::<C>(panel, k);
         let first = panel.start - self.first + k;
         let mut x: [[f64; B]; C] = std::array::from_fn(|k| self.part[first + k]);
-        let n_inside = self.n_inside(panel);
+        let n_inside = panel.below.partition_point(|&i| (i as usize) < self.beyond);
         for (r, &i) in panel.below.iter().enumerate() {
             let y_i = if r < n_inside {
                 self.part[i as usize - self.first]
