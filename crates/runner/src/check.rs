@@ -10,46 +10,48 @@ use spectra::Spectrum;
 
 use crate::plan::{Plan, Sweep};
 use crate::spec::MatrixKind;
+use crate::warning::Warnings;
 
-/// Says on standard error what is unusual about a network, before anything is computed.
-pub fn warn(plan: &Plan) {
+/// What is unusual about a network, before anything is computed.
+pub fn warn(plan: &Plan, warnings: &mut Warnings) {
     let network = &plan.network;
     let isolated = network.isolated_nodes();
     if !isolated.is_empty() {
         let labels: Vec<_> =
             isolated.iter().take(5).map(|&i| network.labels()[i].as_str()).collect();
         let more = if isolated.len() > labels.len() { ", …" } else { "" };
-        eprintln!(
-            "warning: {}: {} of {} nodes have no links ({}{more}); they receive no coupling",
-            plan.id,
+        let message = format!(
+            "{} of {} nodes have no links ({}{more}); they receive no coupling",
             isolated.len(),
             network.n_nodes(),
             labels.join(", ")
         );
+        warnings.add("network.isolated_nodes", message);
     }
     let components = plan.n_components;
     if components > 1 {
-        eprintln!(
-            "warning: {}: the network has {components} components, so {components} modes have \
-             eigenvalue 0 and no coupling synchronises it globally",
-            plan.id
+        let message = format!(
+            "the network has {components} components, so {components} modes have eigenvalue 0 and \
+             no coupling synchronises it globally"
         );
+        warnings.add("network.components", message);
     }
 }
 
-/// Says on standard error where links are too weak beside others to count in the spectrum.
-pub fn warn_of_weak_links(plan: &Plan, spectrum: &Spectrum) {
+/// Where links are too weak beside others to count in the spectrum.
+pub fn warn_of_weak_links(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) {
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
     if n_zero > plan.n_components {
         let network = match plan.n_components {
             1 => "the network is connected".into(),
             n => format!("the network has {n} components"),
         };
-        eprintln!(
-            "warning: {}: {network}, yet {n_zero} modes have eigenvalue 0 up to {:.0e}: links much \
-             weaker than the strongest hold no nodes together here",
-            plan.id, spectrum.tolerance
+        let message = format!(
+            "{network}, yet {n_zero} modes have eigenvalue 0 up to {:.0e}: links much weaker than \
+             the strongest hold no nodes together here",
+            spectrum.tolerance
         );
+        warnings.add("spectrum.tolerance", message);
     }
 }
 

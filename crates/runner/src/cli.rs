@@ -8,7 +8,7 @@ use dynamics::InstructionSet;
 
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
-use crate::output::say;
+use crate::output::{say, tell};
 use crate::plan;
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
@@ -155,7 +155,6 @@ fn run_files(
     let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
     for plan in &plans {
-        check::warn(plan);
         let started = Instant::now();
         let planned = plan.stages.total();
         let took = || planned + started.elapsed();
@@ -163,7 +162,7 @@ fn run_files(
         let claims = claims::judge(plan, &found)?;
         let place = results::write(plan, &found, claims.clone(), took, &folders.results)?;
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
-        eprintln!("{}: {} in {}", plan.id, place.display(), seconds(took()));
+        tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
         if plan.figure().kind != FigureKind::Sweep {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);

@@ -14,6 +14,7 @@ use crate::plan::{Plan, Sweep};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::Simulated;
+use crate::warning::{Warning, Warnings};
 
 /// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
 /// by rounding.
@@ -36,6 +37,8 @@ pub struct Findings {
     pub simulated: Option<Simulated>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
+    /// What must be known beside these numbers, in the order in which it came up.
+    pub warnings: Vec<Warning>,
 }
 
 /// The master stability functions computed so far: experiments that ask for the same one share it.
@@ -68,6 +71,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let failed = |what: &str, error: &dyn std::fmt::Display| {
         Problem::from_error(what, error).in_file(&plan.file)
     };
+    let mut warnings = Warnings::new(&plan.id);
+    check::warn(plan, &mut warnings);
     let msf = curves.of(plan, stages)?;
     let stable = msf.stable_region();
     let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
@@ -76,7 +81,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
             spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
         })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
-    check::warn_of_weak_links(plan, &spectrum);
+    check::warn_of_weak_links(plan, &spectrum, &mut warnings);
     let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
@@ -99,7 +104,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         .map_err(|error| failed("the clusters cannot be labelled", &error))?;
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
-    Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement })
+    let warnings = warnings.into_list();
+    Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement, warnings })
 }
 
 fn advanced(advance: spectra::Advance) -> String {

@@ -27,18 +27,26 @@ mod results;
 mod simulated;
 mod spec;
 mod table;
+mod warning;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::output::tell;
+
 fn main() -> ExitCode {
-    match cli::run(cli::Cli::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
+    let status = match cli::run(cli::Cli::parse()) {
+        Ok(true) => 0,
+        Ok(false) => 1,
         Err(problem) => {
-            eprintln!("error: {problem}");
-            ExitCode::from(2)
+            tell!("error: {problem}");
+            2
         }
+    };
+    if !output::arrived() {
+        tell!("error: standard output cannot be written to, and what was said on it is lost");
+        return ExitCode::from(2);
     }
+    ExitCode::from(status)
 }

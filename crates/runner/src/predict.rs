@@ -14,7 +14,7 @@ use crate::output::say;
 use crate::problem::{Problem, Result, nearest};
 use crate::progress::Stages;
 use crate::spec::{Format, MatrixKind};
-use crate::{check, findings, overview, plan, record, results};
+use crate::{findings, overview, plan, record, results};
 
 /// Points of the curve Λ(σ).
 const SIGMA_POINTS: i64 = 65;
@@ -83,7 +83,6 @@ pub fn run(args: &Args) -> Result<()> {
     record::check_writable(&args.results)?;
     let of_network = |problem: Problem| problem.renamed(&file, &args.network);
     let plan = plan::of_text(&text, &file, args.quick, stages).map_err(of_network)?;
-    check::warn(&plan);
     let found = findings::find(&plan, &mut findings::Curves::default(), &plan.stages)
         .map_err(of_network)?;
     let took = || started.elapsed();

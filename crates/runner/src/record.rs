@@ -15,6 +15,7 @@ use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{OverSeeds, completed};
+use crate::warning::Warning;
 
 pub use folder::{Folder, check_writable};
 pub use states::StateRecord;
@@ -37,6 +38,8 @@ pub struct Summary {
     pub cascade: Vec<StateRecord>,
     pub simulations: Vec<SimulationRecord>,
     pub claims: Vec<Claim>,
+    /// What must be known beside these numbers.
+    pub warnings: Vec<Warning>,
     pub provenance: Provenance,
 }
 
@@ -212,6 +215,7 @@ pub fn summarise(
         cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
         claims,
+        warnings: findings.warnings.clone(),
         provenance: Provenance::new(plan, &links_hash, took),
         experiment: plan.written.clone(),
     }
