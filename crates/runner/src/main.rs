@@ -17,6 +17,7 @@ mod findings;
 mod load;
 mod output;
 mod overview;
+mod place;
 mod plan;
 mod predict;
 mod problem;

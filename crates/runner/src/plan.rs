@@ -19,6 +19,7 @@ pub use network::nodes_named;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
+use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::spec::{
@@ -37,6 +38,8 @@ pub struct Plan {
     pub id: String,
     /// The file itself.
     pub file: PathBuf,
+    /// The text that is kept with the results, where the file itself is nowhere.
+    pub kept: Option<String>,
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
@@ -123,13 +126,6 @@ pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<P
     of(crate::load::parse(text, file)?, file, quick, stages)
 }
 
-/// What the results of an experiment file are called: its name without the ending.
-pub fn id(file: &Path) -> Result<String> {
-    file.file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned())
-        .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))
-}
-
 fn of(
     (experiment, written): (Experiment, Value),
     file: &Path,
@@ -152,6 +148,7 @@ fn of(
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
+        kept: None,
         shortened,
         network,
         n_components,

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use graph::Network;
 
+use crate::place::Origin;
 use crate::plan::Plan;
 
 /// Bytes that are hashed at a time: many links at once take a tenth of the time.
@@ -19,6 +20,8 @@ pub struct Provenance {
     pub version: &'static str,
     /// Commit of eigensync that the program was built from; `+` when files were changed since.
     pub commit: &'static str,
+    /// Command and file that the results were made from.
+    pub origin: Origin,
     pub seed: u64,
     /// SHA-256 of the experiment as parsed, its shortening, and the hash of the network's links.
     pub plan_hash: String,
@@ -41,11 +44,13 @@ impl Provenance {
         plan: &Plan,
         links_hash: &str,
         (took, stages): (Duration, &[(String, Duration)]),
+        origin: &Origin,
     ) -> Self {
         let seconds = |time: Duration| (time.as_secs_f64() * 1e3).round() / 1e3;
         Self {
             version: env!("CARGO_PKG_VERSION"),
             commit: env!("EIGENSYNC_COMMIT"),
+            origin: origin.clone(),
             seed: plan.experiment.seed,
             plan_hash: plan_hash(plan, links_hash),
             host_features: host_features(),

@@ -1,7 +1,5 @@
-//! `summary.json`: a run in numbers. `record/states` has the predicted states, `record/folder` the
-//! folder in which it is written.
+//! `summary.json`: a run in numbers. `record/states` has the predicted states.
 
-mod folder;
 mod states;
 
 use std::time::Duration;
@@ -12,12 +10,12 @@ use serde_json::Value;
 use crate::agreement::Agreement;
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
+use crate::place::Origin;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{OverSeeds, completed};
 use crate::warning::Warning;
 
-pub use folder::{Folder, check_writable};
 pub use states::StateRecord;
 
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
@@ -174,6 +172,7 @@ pub fn summarise(
     findings: &Findings,
     claims: Vec<Claim>,
     took: (Duration, &[(String, Duration)]),
+    origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
     let links_hash = links_hash(network);
@@ -216,7 +215,7 @@ pub fn summarise(
         simulations: simulation_records(plan, findings),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took),
+        provenance: Provenance::new(plan, &links_hash, took, origin),
         experiment: plan.written.clone(),
     }
 }

@@ -4,6 +4,7 @@
 mod cascade;
 mod comparison;
 mod odd_networks;
+mod place;
 mod predict;
 mod results;
 #[path = "../support/mod.rs"]
