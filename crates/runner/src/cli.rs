@@ -13,7 +13,7 @@ use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, load, predict, results, table};
+use crate::{check, claims, compare, findings, list, predict, results, table};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -69,7 +69,7 @@ enum Command {
         #[command(flatten)]
         folders: Folders,
     },
-    /// List experiments with their titles, and whether there are results
+    /// List experiments with their titles, and what there is of their results
     List {
         /// Folder of experiment files
         #[arg(default_value = "experiments")]
@@ -117,7 +117,9 @@ pub fn run(cli: Cli) -> Result<bool> {
             let place = |id: String| (id.clone(), folders.results.join(id));
             compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden)
         }
-        Command::List { experiments, folders } => list(&experiments, &folders),
+        Command::List { experiments, folders } => {
+            list::list(&experiments, &folders.results).map(|()| true)
+        }
     }
 }
 
@@ -244,28 +246,6 @@ fn golden_ids(golden: &Path) -> Result<Vec<String>> {
     }
     ids.sort();
     Ok(ids)
-}
-
-fn list(experiments: &Path, folders: &Folders) -> Result<bool> {
-    let entries = std::fs::read_dir(experiments)
-        .map_err(|error| Problem::from_error("cannot be read", error).in_file(experiments))?;
-    let is_toml = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "toml");
-    let mut files: Vec<PathBuf> =
-        entries.flatten().map(|entry| entry.path()).filter(is_toml).collect();
-    files.sort();
-    if files.is_empty() {
-        return Err(Problem::new("holds no experiment files").in_file(experiments));
-    }
-    for file in files {
-        let title = match load::experiment(&file) {
-            Ok((experiment, _)) => experiment.title,
-            Err(problem) => format!("cannot be read: {problem}"),
-        };
-        let id = file.file_stem().unwrap_or_default().to_string_lossy();
-        let done = folders.results.join(id.as_ref()).join("summary.json").exists();
-        say!("{:<40} {}{title}", file.display(), if done { "[results] " } else { "" });
-    }
-    Ok(true)
 }
 
 fn seconds(time: Duration) -> String {

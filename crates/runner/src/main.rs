@@ -14,6 +14,7 @@ mod compare;
 mod drawing;
 mod figures;
 mod findings;
+mod list;
 mod load;
 mod output;
 mod overview;

@@ -13,6 +13,7 @@
 mod carry;
 mod exchange;
 mod folder;
+mod found;
 mod leftovers;
 mod lock;
 mod manifest;
@@ -27,9 +28,10 @@ use crate::output::tell;
 use crate::problem::{Problem, Result};
 
 pub use folder::Folder;
+pub use found::Found;
 use lock::Lock;
 pub use name::id;
-pub use standing::Origin;
+pub use standing::{Head, Origin};
 use standing::{Ours, standing};
 
 /// Where files are written, in the hidden folder.

@@ -22,6 +22,7 @@ pub use spectrum::SpectrumPlan;
 use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
+use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
     Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
@@ -121,6 +122,15 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
     of(crate::load::experiment(file)?, file, quick, Stages::new(&id(file)?))
 }
 
+/// The hash of the plan that [`plan`] would make, for which the network is all that must be read.
+pub fn hash(file: &Path, quick: bool) -> Result<String> {
+    let (experiment, written) = crate::load::experiment(file)?;
+    let (shortened, stages) = (shortening(quick), Stages::default());
+    let checker = Checker { file, experiment: &experiment, shortened, stages: &stages };
+    let (network, _) = checker.network()?;
+    Ok(plan_hash(&written, shortened, &links_hash(&network)))
+}
+
 /// The same for the text of an experiment file that would be called so, after some stages.
 pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<Plan> {
     of(crate::load::parse(text, file)?, file, quick, stages)
@@ -132,7 +142,7 @@ fn of(
     quick: bool,
     stages: Stages,
 ) -> Result<Plan> {
-    let shortened = if quick { QUICK } else { 1.0 };
+    let shortened = shortening(quick);
     let checker = Checker { file, experiment: &experiment, shortened, stages: &stages };
     let (network, preparation) = checker.network()?;
     let (n_components, matrix) = stages.unmeasured("preparation", || {
@@ -163,6 +173,10 @@ fn of(
     checker.figure(&plan.network)?;
     checker.claims(&plan)?;
     Ok(Plan { stages, ..plan })
+}
+
+fn shortening(quick: bool) -> f64 {
+    if quick { QUICK } else { 1.0 }
 }
 
 struct Checker<'a> {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use indexmap::IndexMap;
 use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use graph::Network;
@@ -52,7 +53,7 @@ impl Provenance {
             commit: env!("EIGENSYNC_COMMIT"),
             origin: origin.clone(),
             seed: plan.experiment.seed,
-            plan_hash: plan_hash(plan, links_hash),
+            plan_hash: plan_hash(&plan.written, plan.shortened, links_hash),
             host_features: host_features(),
             instruction_set: plan.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
@@ -82,10 +83,11 @@ pub fn links_hash(network: &Network) -> String {
     text(hash)
 }
 
-fn plan_hash(plan: &Plan, links_hash: &str) -> String {
+/// SHA-256 of an experiment as parsed, its shortening, and the hash of its network's links.
+pub fn plan_hash(written: &Value, shortened: f64, links_hash: &str) -> String {
     let mut hash = Sha256::new();
-    hash.update(plan.written.to_string());
-    hash.update(plan.shortened.to_le_bytes());
+    hash.update(written.to_string());
+    hash.update(shortened.to_le_bytes());
     hash.update(links_hash);
     text(hash)
 }

@@ -9,8 +9,7 @@ use std::time::{Duration, Instant};
 use support::{Workplace, tiny};
 
 /// The files of a whole results folder.
-const WHOLE: [&str; 11] = [
-    "SHA256SUMS",
+const WHOLE: [&str; 10] = [
     "cascade.csv",
     "cascade.nwk",
     "clusters.csv",

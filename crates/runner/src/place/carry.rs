@@ -12,7 +12,7 @@ use std::path::Path;
 
 use super::exchange::flush;
 use super::manifest::{Manifest, Owner};
-use super::standing::Identity;
+use super::standing::{Identity, SUMMARY};
 use crate::output::tell;
 
 /// How an entry gets into the new folder.
@@ -43,10 +43,10 @@ pub fn move_rest(old: &Path, new: &Path) -> Result<()> {
     if !users.is_empty() {
         flush(new)?;
     }
-    // The list goes last: without it, a later run could not tell the others from a user's.
-    let (list, files): (Vec<_>, Vec<_>) =
-        ours.iter().map(|(name, _)| name).partition(|name| Manifest::is_called(name));
-    files.iter().chain(&list).try_for_each(|name| fs::remove_file(old.join(name)))?;
+    // The summary goes last: without it, a later run could not tell the others from a user's.
+    let (summary, files): (Vec<_>, Vec<_>) =
+        ours.iter().map(|(name, _)| name).partition(|name| *name == SUMMARY);
+    files.iter().chain(&summary).try_for_each(|name| fs::remove_file(old.join(name)))?;
     fs::remove_dir(old)
 }
 
@@ -54,7 +54,7 @@ pub fn move_rest(old: &Path, new: &Path) -> Result<()> {
 fn owned(folder: &Path) -> Result<Vec<(OsString, Owner)>> {
     let manifest = Manifest::of(folder);
     let of = |name: OsString| {
-        let owner = name.to_str().map_or(Owner::User, |name| manifest.owner(folder, name));
+        let owner = manifest.owner(folder, &name);
         (name, owner)
     };
     Ok(names(folder)?.into_iter().map(of).collect())
@@ -164,9 +164,12 @@ mod tests {
             fs::create_dir(folder).unwrap();
             fs::write(folder.join("msf.csv"), "ours").unwrap();
             fs::write(folder.join("sweep.csv"), "ours").unwrap();
+            fs::write(folder.join("summary.json"), r#"{"a": 0.1, "provenance": {}}"#).unwrap();
             super::super::manifest::seal(folder).unwrap();
         }
         fs::write(old.join("sweep.csv"), "edited").unwrap();
+        let summary = fs::read_to_string(old.join("summary.json")).unwrap();
+        fs::write(old.join("summary.json"), summary.replace("0.1", "0.2")).unwrap();
         fs::create_dir_all(old.join("drafts/deep")).unwrap();
         fs::write(old.join("drafts/deep/one.tex"), "years of work").unwrap();
         fs::write(old.join("notes.txt"), "mine").unwrap();
@@ -176,6 +179,8 @@ mod tests {
             assert_eq!(read("drafts/deep/one.tex"), "years of work");
             assert_eq!(read("sweep.kept.csv"), "edited");
             assert_eq!(read("sweep.csv"), "ours");
+            assert!(read("summary.kept.json").contains("0.2"));
+            assert!(read("summary.json").contains("0.1"));
         };
         link_along(&old, &new);
         check();
@@ -187,23 +192,5 @@ mod tests {
         assert_eq!(fs::read_to_string(new.join("drafts/two.tex")).unwrap(), "a late thought");
         assert_eq!(fs::read_to_string(new.join("msf.kept.csv")).unwrap(), "a late edit");
         assert!(!old.exists());
-    }
-
-    #[test]
-    fn a_list_that_a_user_made_does_not_make_files_ours() {
-        let place = tempfile::tempdir().unwrap();
-        let [old, new] = ["old", "new"].map(|name| place.path().join(name));
-        for folder in [&old, &new] {
-            fs::create_dir(folder).unwrap();
-            fs::write(folder.join("summary.json"), "{}").unwrap();
-            super::super::manifest::seal(folder).unwrap();
-        }
-        fs::write(old.join("notes.txt"), "mine").unwrap();
-        let list = fs::read_to_string(old.join("SHA256SUMS")).unwrap();
-        // The sum of "mine", as `sha256sum notes.txt >> SHA256SUMS` would add it.
-        let sum = "1b7407b2a9a08f4a0ebf4f3ce1b6d7ee96d5dee1d2b2b3ea3bbf5c0ff8b1a3e1";
-        fs::write(old.join("SHA256SUMS"), format!("{list}{sum}  notes.txt\n")).unwrap();
-        move_rest(&old, &new).unwrap();
-        assert_eq!(fs::read_to_string(new.join("notes.txt")).unwrap(), "mine");
     }
 }

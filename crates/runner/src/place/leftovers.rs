@@ -73,12 +73,11 @@ fn is_of_0_1_0(path: &Path, id: &str) -> bool {
 fn holds_ours_only(folder: &Path) -> bool {
     let manifest = Manifest::of(folder);
     entries(folder).all(|path| {
-        let name = path.file_name().and_then(|name| name.to_str());
-        name.is_some_and(|name| manifest.owner(folder, name) == Owner::Ours)
+        path.file_name().is_some_and(|name| manifest.owner(folder, name) == Owner::Ours)
     })
 }
 
-/// Folders in a folder when called for one, otherwise whatever is there; links are not followed.
+/// What is in a folder, if it can be read.
 fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
     fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }

@@ -1,6 +1,7 @@
-//! `SHA256SUMS`: the files of a results folder and what is in them, as `sha256sum --check` reads it.
-//! It tells our files from a user's, and those that were edited. Its first line says what the others
-//! must be, so that a list that somebody else made or mended is not taken for ours.
+//! The files of a results folder and the SHA-256 of each, as its summary lists them under
+//! `provenance.files`: what is ours, what was edited, and what is a user's.
+//!
+//! The summary lists itself too, as it is without that list.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -9,17 +10,14 @@ use std::io::{Read, Result, Write};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::exchange::flush;
 use super::standing::SUMMARY;
 
-/// Name of the list.
-const NAME: &str = "SHA256SUMS";
-/// Beginning of its first line, which the SHA-256 of the others follows.
-const HEADER: &str = "# written by eigensync, SHA-256 of the lines below: ";
-
-/// Files of 0.1.0, which had no list, and beginnings of those that have a number in their name.
+/// Files of 0.1.0, whose summaries list none, and beginnings of those that have a number in their
+/// name.
 const OF_0_1_0: [&str; 11] = [
     "cascade.csv",
     "cascade.nwk",
@@ -53,7 +51,10 @@ pub enum Owner {
 
 /// What a results folder was written with.
 pub struct Manifest {
+    /// Sums by name; none if the summary lists none.
     sums: Option<BTreeMap<String, String>>,
+    /// Of the summary as it is now, without the list.
+    summary: Option<String>,
     /// When the summary was written.
     written: Option<SystemTime>,
 }
@@ -61,28 +62,29 @@ pub struct Manifest {
 impl Manifest {
     /// Of a results folder.
     pub fn of(folder: &Path) -> Self {
-        let text = fs::read_to_string(folder.join(NAME)).unwrap_or_default();
-        Self { sums: listed(&text), written: modified(&folder.join(SUMMARY)) }
-    }
-
-    /// Whether an entry of this name is the list itself.
-    pub fn is_called(name: &OsStr) -> bool {
-        name == NAME
+        let path = folder.join(SUMMARY);
+        let written = modified(&path);
+        let text = fs::read_to_string(path).unwrap_or_default();
+        let Ok(mut summary) = serde_json::from_str::<Value>(&text) else {
+            return Self { sums: None, summary: None, written };
+        };
+        let files = summary["provenance"].as_object_mut().and_then(|all| all.shift_remove("files"));
+        Self {
+            sums: files.and_then(|files| serde_json::from_value(files).ok()),
+            summary: Some(sum_of_text(&pretty(&summary))),
+            written,
+        }
     }
 
     /// Whose this entry of the folder is.
-    pub fn owner(&self, folder: &Path, name: &str) -> Owner {
+    pub fn owner(&self, folder: &Path, name: &OsStr) -> Owner {
         let path = folder.join(name);
-        if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
-            return Owner::User;
-        }
+        let is_file = fs::symlink_metadata(&path).is_ok_and(|found| found.is_file());
+        let Some(name) = name.to_str().filter(|_| is_file) else { return Owner::User };
         let Some(sums) = &self.sums else { return self.owner_in_0_1_0(&path, name) };
-        match sums.get(name) {
-            _ if name == NAME => Owner::Ours,
-            None => Owner::User,
-            Some(sum) if sum_of(&path).is_ok_and(|now| now == *sum) => Owner::Ours,
-            Some(_) => Owner::Edited,
-        }
+        let Some(sum) = sums.get(name) else { return Owner::User };
+        let now = if name == SUMMARY { self.summary.clone() } else { sum_of(&path).ok() };
+        if now.as_ref() == Some(sum) { Owner::Ours } else { Owner::Edited }
     }
 
     fn owner_in_0_1_0(&self, path: &Path, name: &str) -> Owner {
@@ -98,41 +100,37 @@ impl Manifest {
     }
 }
 
-/// Flushes the files of a folder and lists them in it; nothing is written to it after that.
+/// Flushes the files of a folder and lists them in its summary; nothing is written to it after that.
 pub fn seal(folder: &Path) -> Result<()> {
-    let mut lines = BTreeMap::new();
+    let path = folder.join(SUMMARY);
+    let mut summary: Value = serde_json::from_str(&fs::read_to_string(&path)?)?;
+    let mut sums = BTreeMap::from([(SUMMARY.to_owned(), sum_of_text(&pretty(&summary)))]);
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        File::open(&path)?.sync_all()?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        lines.insert(name, sum_of(&path)?);
+        if name != SUMMARY {
+            File::open(&path)?.sync_all()?;
+            sums.insert(name, sum_of(&path)?);
+        }
     }
-    let lines: String = lines.iter().map(|(name, sum)| format!("{sum}  {name}\n")).collect();
-    let mut list = File::create(folder.join(NAME))?;
-    write!(list, "{HEADER}{}\n{lines}", text(Sha256::new().chain_update(&lines)))?;
-    list.sync_all()?;
+    summary["provenance"]["files"] = json!(sums);
+    let mut file = File::create(path)?;
+    file.write_all(pretty(&summary).as_bytes())?;
+    file.sync_all()?;
     flush(folder)
 }
 
 /// Whether a sealed folder was written after what is in place.
 pub fn is_newer(sealed: &Path, in_place: &Path) -> bool {
-    let of =
-        |folder: &Path| modified(&folder.join(NAME)).or_else(|| modified(&folder.join(SUMMARY)));
-    of(sealed) > of(in_place)
-}
-
-/// The sums by name, if the list is as we wrote it.
-fn listed(list: &str) -> Option<BTreeMap<String, String>> {
-    let (header, lines) = list.split_once('\n')?;
-    if header.strip_prefix(HEADER)? != text(Sha256::new().chain_update(lines)) {
-        return None;
-    }
-    let entry = |line: &str| line.split_once("  ").map(|(sum, name)| (name.into(), sum.into()));
-    lines.lines().map(entry).collect()
+    modified(&sealed.join(SUMMARY)) > modified(&in_place.join(SUMMARY))
 }
 
 fn modified(path: &Path) -> Option<SystemTime> {
     fs::metadata(path).and_then(|found| found.modified()).ok()
+}
+
+fn pretty(summary: &Value) -> String {
+    format!("{summary:#}\n")
 }
 
 fn sum_of(path: &Path) -> Result<String> {
@@ -144,6 +142,10 @@ fn sum_of(path: &Path) -> Result<String> {
             n => hash.update(&piece[..n]),
         }
     }
+}
+
+fn sum_of_text(content: &str) -> String {
+    text(Sha256::new().chain_update(content))
 }
 
 fn text(hash: Sha256) -> String {

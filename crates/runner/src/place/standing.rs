@@ -24,12 +24,16 @@ pub struct Head {
     /// The experiment as it was parsed.
     pub experiment: Value,
     pub provenance: Provenance,
+    /// When the summary was written, in seconds since 1970.
+    #[serde(skip)]
+    written: Option<i64>,
 }
 
 /// The part of a summary's provenance that is read again.
 #[derive(Deserialize)]
 pub struct Provenance {
     pub plan_hash: String,
+    pub wall_time_s: f64,
     /// What the results were made from; none in those of 0.1.0.
     pub origin: Option<Origin>,
 }
@@ -77,7 +81,14 @@ impl Head {
         }
         let file = fs::File::open(&path)
             .map_err(|error| format!("has a {SUMMARY} that cannot be read: {error}"))?;
-        serde_json::from_reader(BufReader::with_capacity(1 << 16, file)).map_err(|_| no_file())
+        let written = file.metadata().map(|found| found.mtime()).ok();
+        let head = serde_json::from_reader(BufReader::with_capacity(1 << 16, file));
+        head.map(|head: Self| Self { written, ..head }).map_err(|_| no_file())
+    }
+
+    /// When the run began, in seconds since 1970, if that can be told.
+    pub fn began(&self) -> Option<i64> {
+        Some(self.written? - self.provenance.wall_time_s.ceil() as i64)
     }
 
     pub fn is_quick(&self) -> bool {
@@ -132,7 +143,7 @@ impl Ours {
         }
         let message =
             format!("holds the results of {}, which this would replace", earlier.shown(place));
-        Err(refused(place, message))
+        Err(refused(place, &message))
     }
 
     /// Version 0.1.0 left only the experiment file that a prediction was made into.
@@ -155,14 +166,14 @@ pub fn standing(place: &Path, id: &str) -> Result<Option<Ours>> {
     };
     if found.is_symlink() {
         let to = fs::read_link(place).unwrap_or_default();
-        return Err(refused(place, format!("is a link to {}", to.display())));
+        return Err(refused(place, &format!("is a link to {}", to.display())));
     }
     if !found.is_dir() {
-        return Err(refused(place, "is a file".into()));
+        return Err(refused(place, "is a file"));
     }
-    let head = Head::read(place).map_err(|why| refused(place, why))?;
+    let head = Head::read(place).map_err(|why| refused(place, &why))?;
     if head.id != id {
-        return Err(refused(place, format!("holds results of another experiment, `{}`", head.id)));
+        return Err(refused(place, &format!("holds results of another experiment, `{}`", head.id)));
     }
     if let Err(error) = rustix::fs::access(place, ALL_ACCESS) {
         return Err(Problem::from_error("cannot be replaced", error).in_file(place));
@@ -175,7 +186,7 @@ const ALL_ACCESS: rustix::fs::Access = rustix::fs::Access::READ_OK
     .union(rustix::fs::Access::WRITE_OK)
     .union(rustix::fs::Access::EXEC_OK);
 
-fn refused(place: &Path, why: String) -> Problem {
+fn refused(place: &Path, why: &str) -> Problem {
     Problem::new(format!("{why}; expected nothing, or older results of the same experiment"))
         .in_file(place)
         .hint("results go here: move it away, or write elsewhere: `--results FOLDER`")
