@@ -3,6 +3,7 @@
 
 mod cascade;
 mod comparison;
+mod faults;
 mod odd_networks;
 mod place;
 mod predict;
