@@ -235,7 +235,11 @@ fn numbers_are_finite(results: &Path) -> Result<(), String> {
     if let Some(key) = not_finite(&summary, "") {
         return Err(format!("summary.json: {key} is not finite"));
     }
-    for table in files(results, &["csv"])? {
+    // The other tables have labels in them, and a node may be called `nan`.
+    for table in ["spectrum.csv", "msf.csv", "sweep.csv"].map(|name| results.join(name)) {
+        if !table.exists() {
+            continue;
+        }
         let text = fs::read_to_string(&table).map_err(|error| error.to_string())?;
         let is_none = |field: &str| field.parse::<f64>().is_ok_and(|number| !number.is_finite());
         if let Some(line) = text.lines().find(|line| line.split(',').any(is_none)) {
