@@ -5,11 +5,12 @@
 //! decides whether it is a failure.
 
 use std::collections::BTreeMap;
-use std::fs;
+
 use std::path::Path;
 
 use serde_json::{Map, Value};
 
+use crate::files;
 use crate::problem::{Problem, Result};
 
 /// Width of a band in standard errors.
@@ -84,7 +85,7 @@ pub fn compare(id: &str, results: &Path, golden: &Path) -> Result<Option<Compari
 }
 
 fn read(path: &Path) -> Result<Value> {
-    let text = fs::read_to_string(path).map_err(|error| {
+    let text = files::open(path).and_then(std::io::read_to_string).map_err(|error| {
         Problem::from_error("cannot be read", error).in_file(path).hint("`eigensync run` writes it")
     })?;
     serde_json::from_str(&text)

@@ -178,8 +178,9 @@ pub struct FigureSpec {
     /// What is drawn: the errors of a sweep against ε, matrices of distances and errors at every ε,
     /// or the nodes in space, coloured by clusters of regions.
     pub kind: FigureKind,
-    /// Modes whose eigenvectors are drawn beside matrices.
-    pub eigenvectors: Vec<usize>,
+    /// Modes whose eigenvectors are drawn beside matrices; 2, 3 and 4 by default, or those of them
+    /// that are computed.
+    pub eigenvectors: Option<Vec<usize>>,
     /// Letter of the paper's panels: "a" gives (a1), (a2), …
     pub letter: String,
     /// How the network is laid out.
@@ -198,7 +199,7 @@ impl Default for FigureSpec {
     fn default() -> Self {
         Self {
             kind: FigureKind::Sweep,
-            eigenvectors: vec![2, 3, 4],
+            eigenvectors: None,
             letter: "a".into(),
             layout: Layout::Force,
             mark_modes: None,
@@ -215,6 +216,8 @@ pub enum FigureKind {
     Sweep,
     Matrices,
     Regions,
+    /// No figure: numbers only.
+    None,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -11,6 +11,7 @@ use graph::prepare::{Report, Selection, Step, Symmetrise, apply};
 use graph::{Group, Network, RawNetwork};
 
 use super::Checker;
+use crate::files;
 use crate::problem::{Problem, Result};
 use crate::progress::Watched;
 use crate::spec::{
@@ -127,17 +128,19 @@ impl Checker<'_> {
         let path = self.beside(path);
         let named =
             |message: String| self.problem(key, format!("names {}{message}", path.display()));
-        let source = File::open(&path).map_err(|error| match (error.kind(), fetched_by) {
+        let source = files::open(&path).map_err(|error| match (error.kind(), fetched_by) {
             (std::io::ErrorKind::NotFound, Some(command)) => named(", which is not here".into())
                 .hint(format!("`{command}` brings it"))
                 .left_out(),
             (std::io::ErrorKind::NotFound, None) => named(", which does not exist".into())
                 .hint("paths are relative to the folder of the experiment file"),
-            _ => named(format!(", which cannot be opened: {error}")),
+            _ => match files::kind(&path) {
+                Ok(kind) if kind != files::REGULAR => {
+                    named(format!(", which is {kind}; expected {}", files::REGULAR))
+                }
+                _ => named(format!(", which cannot be opened: {error}")),
+            },
         })?;
-        if path.is_dir() {
-            return Err(named(", which is a folder; expected a file of links".into()));
-        }
         Ok((path, source))
     }
 

@@ -3,6 +3,7 @@
 
 mod cascade;
 mod comparison;
+mod figures;
 mod odd_networks;
 mod predict;
 mod results;
