@@ -74,7 +74,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
     let msf = curves.of(plan, stages)?;
-    let stable = msf.stable_region();
+    let stable = msf.stable.clone();
     let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
     let spectrum = stages
         .told("spectrum", |tell| {
@@ -82,7 +82,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
     check::warn_of_weak_links(plan, &spectrum, &mut warnings);
-    let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
+    let critical = msf::critical_couplings(&stable, &spectrum.eigenvalues, spectrum.tolerance);
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
         .measured("clusters", n_states, |progress| {

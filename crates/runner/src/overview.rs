@@ -6,6 +6,7 @@ use std::fmt::Write;
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
+use msf::{End, Interval, MasterStability};
 use spectra::Verification;
 
 use crate::findings::{EQUITABLE, Findings};
@@ -77,19 +78,35 @@ fn lambda(findings: &Findings) -> String {
 }
 
 fn stable(findings: &Findings) -> String {
-    let intervals = findings.msf.stable_region().intervals;
-    if intervals.is_empty() {
-        return "no sigma that was looked at: nothing is predicted to synchronise".into();
+    let MasterStability { stable, sigma, .. } = &findings.msf;
+    let looked = format!(
+        "looked at from {} to {}",
+        four_digits(sigma[0]),
+        four_digits(sigma[sigma.len() - 1])
+    );
+    if stable.intervals.is_empty() {
+        return format!("no sigma that was {looked}: nothing is predicted to synchronise");
     }
-    if let Some(zero) = findings.msf.sigma_c() {
-        let error = two_digits(zero.standard_error);
-        return format!("sigma > {} ± {error}", four_digits(zero.sigma));
+    let intervals: Vec<String> = stable.intervals.iter().map(interval).collect();
+    let beyond = if stable.is_unbounded() { ", and taken to be stable beyond" } else { "" };
+    format!("{} ({looked}{beyond})", intervals.join(", "))
+}
+
+fn interval(Interval { from, to }: &Interval) -> String {
+    match to {
+        End::Looked { .. } => format!("sigma > {}", end(from)),
+        _ => format!("{} < sigma < {}", end(from), end(to)),
     }
-    let interval = |interval: &msf::Interval| match interval.to {
-        Some(to) => format!("{} < sigma < {}", four_digits(interval.from), four_digits(to)),
-        None => format!("sigma > {}", four_digits(interval.from)),
-    };
-    intervals.iter().map(interval).collect::<Vec<_>>().join(", ")
+}
+
+fn end(end: &End) -> String {
+    match end {
+        End::Zero(zero) => {
+            format!("{} ± {}", four_digits(zero.sigma), two_digits(zero.standard_error))
+        }
+        End::Origin { .. } => "0".into(),
+        End::Looked { sigma } => format!("{} (the end of the look)", four_digits(*sigma)),
+    }
 }
 
 fn cascade(plan: &Plan, findings: &Findings) -> String {

@@ -103,7 +103,7 @@ fn weights_that_are_no_numbers_are_refused() {
 
 /// The labels of the clusters of each state.
 fn kinds(spectrum: &Spectrum, w: &SparseMatrix, rule: ClusterRule) -> Vec<Vec<ClusterKind>> {
-    let stable = StableRegion { intervals: vec![Interval { from: 1.0, to: None }] };
+    let stable = StableRegion { intervals: vec![Interval::known(1.0, None)] };
     let states = cascade(spectrum, &stable, rule).unwrap();
     let of = |state: &clustering::State| {
         let equitability = equitable(w.view(), &state.clusters, TOLERANCE).unwrap();
