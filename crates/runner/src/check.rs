@@ -9,7 +9,7 @@ use dynamics::{Adaptive, AdaptiveOrder, Method, Observables, Schedule, Simulatio
 use spectra::Spectrum;
 
 use crate::drawing;
-use crate::plan::{Plan, Sweep};
+use crate::plan::{Memory, Plan, Sweep};
 use crate::spec::{FigureKind, MatrixKind};
 use crate::warning::Warnings;
 
@@ -123,6 +123,7 @@ pub fn describe(plan: &Plan) -> String {
     }
     line("figure", figure(plan));
     line("claims", experiment.claims.len().to_string());
+    line("memory", Memory::of(plan).to_string());
     line("cost", cost(plan));
     text
 }

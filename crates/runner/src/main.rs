@@ -16,6 +16,7 @@ mod figures;
 mod files;
 mod findings;
 mod load;
+mod machine;
 mod output;
 mod overview;
 mod plan;

@@ -3,6 +3,7 @@
 
 mod claims;
 mod effects;
+mod memory;
 mod network;
 mod numbers;
 mod ranges;
@@ -17,6 +18,7 @@ use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Re
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
+pub use memory::Memory;
 pub use network::nodes_named;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
@@ -169,6 +171,7 @@ fn of(
     checker.regions(&plan.network)?;
     checker.figure(&plan.network, &plan.spectrum)?;
     checker.claims(&plan)?;
+    Memory::of(&plan).affordable().map_err(|problem| problem.in_file(file))?;
     Ok(Plan { stages, ..plan })
 }
 
