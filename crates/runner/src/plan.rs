@@ -23,8 +23,10 @@ pub use network::nodes_named;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
+use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
+use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
     Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
@@ -41,6 +43,8 @@ pub struct Plan {
     pub id: String,
     /// The file itself.
     pub file: PathBuf,
+    /// The text that is kept with the results, where the file itself is nowhere.
+    pub kept: Option<String>,
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
@@ -122,16 +126,19 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
     of(crate::load::experiment(file)?, file, quick, Stages::new(&id(file)?))
 }
 
+/// The hash of the plan that [`plan`] would make, for which the network is all that must be read.
+pub fn hash(file: &Path, quick: bool) -> Result<String> {
+    let (experiment, written) = crate::load::experiment(file)?;
+    let (shortened, stages) = (shortening(quick), Stages::default());
+    let checker =
+        Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
+    let (network, _) = checker.network()?;
+    Ok(plan_hash(&written, shortened, &links_hash(&network)))
+}
+
 /// The same for the text of an experiment file that would be called so, after some stages.
 pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<Plan> {
     of(crate::load::parse(text, file)?, file, quick, stages)
-}
-
-/// What the results of an experiment file are called: its name without the ending.
-pub fn id(file: &Path) -> Result<String> {
-    file.file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned())
-        .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))
 }
 
 fn of(
@@ -140,7 +147,7 @@ fn of(
     quick: bool,
     stages: Stages,
 ) -> Result<Plan> {
-    let shortened = if quick { QUICK } else { 1.0 };
+    let shortened = shortening(quick);
     let checker =
         Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
     checker.effects()?;
@@ -158,6 +165,7 @@ fn of(
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
+        kept: None,
         shortened,
         network,
         n_components,
@@ -173,6 +181,10 @@ fn of(
     checker.claims(&plan)?;
     Memory::of(&plan).affordable().map_err(|problem| problem.in_file(file))?;
     Ok(Plan { stages, ..plan })
+}
+
+fn shortening(quick: bool) -> f64 {
+    if quick { QUICK } else { 1.0 }
 }
 
 struct Checker<'a> {

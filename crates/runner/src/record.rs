@@ -1,7 +1,5 @@
-//! `summary.json`: a run in numbers. `record/states` has the predicted states, `record/folder` the
-//! folder in which it is written.
+//! `summary.json`: a run in numbers. `record/states` has the predicted states.
 
-mod folder;
 mod parameters;
 mod states;
 
@@ -14,13 +12,13 @@ use serde_json::Value;
 use crate::agreement::Agreement;
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
+use crate::place::Origin;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{OverSeeds, completed};
 use crate::spec::StepSpec;
 use crate::warning::Warning;
 
-pub use folder::{Folder, check_writable};
 pub use states::StateRecord;
 
 /// Version of the layout of `summary.json`: it grows when a key goes or changes its meaning, not when
@@ -223,6 +221,7 @@ pub fn summarise(
     findings: &Findings,
     claims: Vec<Claim>,
     took: (Duration, &[(String, Duration)]),
+    origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
     let links_hash = links_hash(network);
@@ -267,7 +266,7 @@ pub fn summarise(
         simulations: simulation_records(plan, findings),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took),
+        provenance: Provenance::new(plan, &links_hash, took, origin),
         experiment: plan.written.clone(),
     }
 }

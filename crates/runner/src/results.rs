@@ -1,6 +1,6 @@
 //! Everything a run writes: the summary, the tables, the figure.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use dynamics::{Errors, Estimate};
@@ -9,15 +9,18 @@ use crate::cascade_files;
 use crate::claims::Claim;
 use crate::drawing;
 use crate::findings::Findings;
+use crate::place::{Folder, Place};
 use crate::plan::Plan;
 use crate::problem::{Problem, Result, plain};
-use crate::record::{Folder, summarise};
+use crate::record::summarise;
 use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
 use crate::warning::Warnings;
 
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
+/// The experiment file that says the same as the options of a prediction.
+pub const EXPERIMENT: &str = "experiment.toml";
 
 /// Writes the results folder and gives its place; `took` says how long the run has taken when asked.
 /// Numbers come first, and whatever becomes of the figure costs none of them.
@@ -26,10 +29,10 @@ pub fn write(
     findings: &Findings,
     claims: Vec<Claim>,
     took: impl FnOnce() -> Duration,
-    results: &Path,
+    place: Place,
 ) -> Result<PathBuf> {
     let stages = &plan.stages;
-    let folder = Folder::start(results, &plan.id)?;
+    let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
     let mut warnings = Warnings::new(&plan.id);
@@ -41,13 +44,16 @@ pub fn write(
             warnings.add("figure", problem.to_string());
         }
     }
-    let mut summary = summarise(plan, findings, claims, (took(), &stages.took()));
+    if let Some(text) = &plan.kept {
+        folder.write(EXPERIMENT, text)?;
+    }
+    let mut summary = summarise(plan, findings, claims, (took(), &stages.took()), place.origin());
     summary.warnings.extend(warnings.into_list());
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;
     folder.write("summary.json", json + "\n")?;
-    folder.finish()
+    place.finish(folder)
 }
 
 fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
