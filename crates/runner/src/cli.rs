@@ -123,10 +123,21 @@ pub fn run(cli: Cli) -> Result<bool> {
     }
 }
 
+/// More threads than so many for each processor would only wait for one another.
+const THREADS_A_PROCESSOR: usize = 4;
+
 fn use_threads(threads: Option<u16>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
+    let Some(asked) = threads.map(usize::from) else { return Ok(()) };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = asked.min(THREADS_A_PROCESSOR * processors);
+    if threads < asked {
+        tell!(
+            "warning: `--threads {asked}`: {threads} are used, {THREADS_A_PROCESSOR} for each of \
+             {processors} processor(s)"
+        );
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(threads))
+        .num_threads(threads)
         .build_global()
         .map_err(|error| Problem::from_error("the threads cannot be started", error))
 }
@@ -172,7 +183,7 @@ fn run_files(
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
         written.push((plan.id.clone(), place));
-        if plan.figure().kind != FigureKind::Sweep {
+        if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
             let rows = epsilon.into_iter().zip(found.agreement);
             agreements.extend(rows.map(|(epsilon, row)| (plan.id.clone(), epsilon, row)));

@@ -13,9 +13,11 @@ mod cli;
 mod compare;
 mod drawing;
 mod figures;
+mod files;
 mod findings;
 mod list;
 mod load;
+mod machine;
 mod output;
 mod overview;
 mod place;
@@ -36,23 +38,39 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::output::tell;
+use crate::output::{say, tell};
 
 /// The command, from the arguments of the process to its exit status.
 pub fn main() -> ExitCode {
-    let status = match cli::run(cli::Cli::parse()) {
-        Ok(true) => 0,
-        Ok(false) => 1,
-        Err(problem) => {
-            tell!("error: {problem}");
-            2
-        }
+    // A panic is a fault of ours; said like all else, so that it cannot fail for want of a terminal.
+    std::panic::set_hook(Box::new(|panic| tell!("error: a fault of eigensync: {panic}")));
+    let status = match cli::Cli::try_parse() {
+        Ok(cli) => match cli::run(cli) {
+            Ok(true) => 0,
+            Ok(false) => 1,
+            Err(problem) => {
+                tell!("error: {problem}");
+                2
+            }
+        },
+        Err(answer) => told(&answer),
     };
     if !output::arrived() {
         tell!("error: standard output cannot be written to, and what was said on it is lost");
         return ExitCode::from(2);
     }
     ExitCode::from(status)
+}
+
+/// Help, version, or what is wrong with the command line, and the exit status.
+fn told(answer: &clap::Error) -> u8 {
+    let text = answer.render().to_string();
+    if answer.use_stderr() {
+        tell!("{}", text.trim_end());
+    } else {
+        say!("{}", text.trim_end());
+    }
+    u8::try_from(answer.exit_code()).unwrap_or(2)
 }
 
 /// Whether a text is an experiment file, or what is wrong with it in the words that a user sees.

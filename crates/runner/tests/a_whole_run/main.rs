@@ -4,6 +4,7 @@
 mod cascade;
 mod comparison;
 mod faults;
+mod figures;
 mod odd_networks;
 mod place;
 mod predict;
