@@ -86,9 +86,9 @@ impl Trial {
         })
     }
 
-    /// Whether there is time for another try.
+    /// Whether there is time for another try; the first is always made.
     pub fn goes_on(&self) -> bool {
-        Instant::now() < self.end
+        self.tried == 0 || Instant::now() < self.end
     }
 
     /// Counts a try; where it failed, what it used is kept beside an account of what happened.

@@ -8,7 +8,7 @@ use super::Trial;
 use super::scene::Scene;
 
 /// Length of averages that makes a sweep of some seconds.
-const LENGTH: f64 = 4000.0;
+const LENGTH: f64 = 1500.0;
 /// Most kills of one sweep before it may finish.
 const KILLS: usize = 3;
 /// A run that is asked to stop does so within this time.
