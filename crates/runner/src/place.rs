@@ -73,8 +73,8 @@ impl Place {
         })?;
         place.lock = Some(lock);
         exchange::try_out(&hidden).map_err(failed)?;
-        place.settle()?;
-        leftovers::of_version_0_1_0(results, id, &place.target()?.0)?;
+        let in_place = place.settle()?;
+        leftovers::of_version_0_1_0(results, id, &in_place)?;
         leftovers::of_dead_runs(results);
         Ok(place)
     }
