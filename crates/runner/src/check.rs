@@ -123,7 +123,7 @@ pub fn describe(plan: &Plan) -> String {
     }
     line("figure", figure(plan));
     line("claims", experiment.claims.len().to_string());
-    line("memory", Memory::of(plan).to_string());
+    line("memory", format!("about {}", Memory::of(plan)));
     line("cost", cost(plan));
     text
 }

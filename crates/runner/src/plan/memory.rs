@@ -86,7 +86,7 @@ impl Memory {
         }
         let largest = self.0.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
         let problem = Problem::new(format!(
-            "needs about {self}, but no more than {} of the {} that are free here may be taken",
+            "needs about {self} of memory, but no more than {} of the {} that are free here may be taken",
             gigabytes(SHARE * available as f64),
             gigabytes(available as f64)
         ));
@@ -101,7 +101,7 @@ impl std::fmt::Display for Memory {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let parts = self.0.iter().map(|part| format!("{} {}", part.name, gigabytes(part.bytes)));
         let parts = parts.collect::<Vec<_>>().join(", ");
-        write!(f, "{} of memory ({parts})", gigabytes(self.total()))
+        write!(f, "{} ({parts})", gigabytes(self.total()))
     }
 }
 
@@ -138,8 +138,11 @@ impl Checker<'_> {
                 }));
             }
         }
-        let network =
-            Part { name: "network", bytes: n_nodes * NODE + n_links * LINK, hint: "take less" };
+        let network = Part {
+            name: "network",
+            bytes: n_nodes * NODE + n_links.max(0.0) * LINK,
+            hint: "take less",
+        };
         let memory = Memory(vec![network]);
         memory.affordable().map_err(|problem| problem.in_file(self.file))
     }

@@ -295,7 +295,10 @@ fn halves_of_the_six_nodes_are_regions_that_synchronise_until_they_part() {
 fn a_summary_holds_every_parameter_that_was_used_and_the_version_of_its_layout() {
     let place = Workplace::new();
     let experiment = tiny().set("prepare", "[\"largest_component\", { symmetrise = \"mean\" }]");
-    place.write("tiny.toml", experiment.set("msf.average", "1000.0").set("sweep.average", "400.0").0);
+    place.write(
+        "tiny.toml",
+        experiment.set("msf.average", "1000.0").set("sweep.average", "400.0").0,
+    );
     place.answer(&["run", "tiny.toml", "--quick"]).with_status(0);
     let summary = place.json("results/tiny/summary.json");
     assert_eq!(summary["layout"], 1);
