@@ -31,6 +31,7 @@ mod results;
 mod simulated;
 mod spec;
 mod table;
+mod trial;
 mod warning;
 
 use std::path::Path;

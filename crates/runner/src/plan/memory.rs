@@ -10,6 +10,10 @@ use crate::machine::available_memory;
 use crate::problem::{Problem, Result};
 use crate::spec::{FigureKind, NetworkSpec};
 
+/// Memory that a file of links takes for each of its bytes, at least: a link of some twenty characters
+/// is [`LINK`] bytes.
+const A_BYTE_OF_LINKS: f64 = 4.0;
+
 /// Share of the available memory that an experiment may take.
 const SHARE: f64 = 0.8;
 /// The most nodes and links that are generated; larger networks come from files.
@@ -86,7 +90,7 @@ impl Memory {
         }
         let largest = self.0.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
         let problem = Problem::new(format!(
-            "needs about {self}, but no more than {} of the {} that are free here may be taken",
+            "needs about {self} of memory, but no more than {} of the {} that are free here may be taken",
             gigabytes(SHARE * available as f64),
             gigabytes(available as f64)
         ));
@@ -101,7 +105,7 @@ impl std::fmt::Display for Memory {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let parts = self.0.iter().map(|part| format!("{} {}", part.name, gigabytes(part.bytes)));
         let parts = parts.collect::<Vec<_>>().join(", ");
-        write!(f, "{} of memory ({parts})", gigabytes(self.total()))
+        write!(f, "{} ({parts})", gigabytes(self.total()))
     }
 }
 
@@ -118,6 +122,17 @@ fn of_sweep(sweep: &Sweep, n: f64) -> Part {
 }
 
 impl Checker<'_> {
+    /// Refuses a file of links that would not fit into memory, by its length.
+    pub(super) fn readable(&self, key: &str, n_bytes: u64) -> Result<()> {
+        let bytes = A_BYTE_OF_LINKS * n_bytes as f64;
+        let network =
+            Part { name: "network", bytes, hint: "take a part of the network, or another machine" };
+        Memory(vec![network]).affordable().map_err(|problem| {
+            let length = gigabytes(n_bytes as f64);
+            self.problem(key, format!("names a file of {length}, too long: {problem}"))
+        })
+    }
+
     /// Refuses a network that is too large to be generated: the reason is known before it is tried.
     pub(super) fn generable(&self, n_nodes: f64, n_links: f64) -> Result<()> {
         let key = match &self.experiment.network {
@@ -138,8 +153,11 @@ impl Checker<'_> {
                 }));
             }
         }
-        let network =
-            Part { name: "network", bytes: n_nodes * NODE + n_links * LINK, hint: "take less" };
+        let network = Part {
+            name: "network",
+            bytes: n_nodes * NODE + n_links.max(0.0) * LINK,
+            hint: "take less",
+        };
         let memory = Memory(vec![network]);
         memory.affordable().map_err(|problem| problem.in_file(self.file))
     }

@@ -83,6 +83,9 @@ impl Checker<'_> {
         let key = "network.file.path";
         let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
         let n_bytes = source.metadata().map_or(0, |metadata| metadata.len());
+        if matches!(spec.format, Format::EdgeList | Format::MatrixMarket | Format::Graphml) {
+            self.readable(key, n_bytes)?;
+        }
         self.stages.measured("reading", n_bytes, |progress| {
             self.read(spec, &path, BufReader::new(Watched { source, progress }))
         })

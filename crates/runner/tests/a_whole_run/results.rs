@@ -290,3 +290,40 @@ fn halves_of_the_six_nodes_are_regions_that_synchronise_until_they_part() {
     place.write("tiny.toml", &falling.0);
     place.answer(&["run", "tiny.toml"]).with_status(1);
 }
+
+#[test]
+fn a_summary_holds_every_parameter_that_was_used_and_the_version_of_its_layout() {
+    let place = Workplace::new();
+    let experiment = tiny().set("prepare", "[\"largest_component\", { symmetrise = \"mean\" }]");
+    place.write(
+        "tiny.toml",
+        experiment.set("msf.average", "1000.0").set("sweep.average", "400.0").0,
+    );
+    place.answer(&["run", "tiny.toml", "--quick"]).with_status(0);
+    let summary = place.json("results/tiny/summary.json");
+    assert_eq!(summary["layout"], 1);
+    let parameters = &summary["parameters"];
+    for (pointer, expected) in [
+        ("/oscillator/lorenz/r", json!(35.0)),
+        ("/network/file/format", json!("edge_list")),
+        ("/network/file/rows", json!("driven")),
+        ("/spectrum/modes", json!("all")),
+        ("/spectrum/tolerance", json!(1e-12)),
+        // A tenth of what the file says.
+        ("/msf/average", json!(100.0)),
+        ("/sweep/average", json!(40.0)),
+        ("/msf/renormalise", json!(0.5)),
+        ("/sweep/kick", json!(1e-14)),
+        ("/sweep/stride", json!(10)),
+        ("/sweep/method", json!("rk4")),
+        ("/sweep/tolerance", json!(null)),
+        ("/sweep/component", json!("x")),
+        ("/prediction/threshold", json!("exact")),
+        ("/figure/kind", json!("sweep")),
+    ] {
+        assert_eq!(parameters.pointer(pointer), Some(&expected), "{pointer}");
+    }
+    let steps = summary["network"]["preparation"].as_array().unwrap();
+    let steps: Vec<_> = steps.iter().map(|step| step["step"].clone()).collect();
+    assert_eq!(steps, [json!("largest_component"), json!({ "symmetrise": "mean" })]);
+}

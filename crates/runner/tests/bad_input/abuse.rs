@@ -163,3 +163,38 @@ fn a_key_of_a_million_characters_is_answered_with_a_message_that_is_read() {
     assert!(answer.stderr.contains("hint: known here: epsilon, seeds"), "{}", answer.stderr);
     assert!(answer.stderr.len() < 1000, "{} bytes", answer.stderr.len());
 }
+
+#[test]
+fn a_sparse_file_longer_than_memory_is_refused_before_it_is_read() {
+    let place = Workplace::new();
+    let file = std::fs::File::create(place.path("networks/six-node.edges")).unwrap();
+    // Forty terabytes of holes; where the file system has no room for them there is nothing to test.
+    if file.set_len(40 << 40).is_err() && file.set_len(8 << 40).is_err() {
+        println!("no sparse file can be made here");
+        return;
+    }
+    let mut command = place.eigensync(&["check", "tiny.toml"]);
+    let output = command.timeout(Duration::from_secs(5)).output().unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("`network.file.path` names a file of"), "{stderr}");
+}
+
+#[test]
+fn check_answers_within_seconds_about_a_large_network_that_is_one_cluster() {
+    let place = Workplace::new();
+    let links: String = (0..200_000).map(|i| format!("{i} {}\n", i + 1)).collect();
+    place.write("networks/six-node.edges", links);
+    let experiment = tiny().without("sweep.error_to").without("sweep.clusters");
+    place.write(
+        "tiny.toml",
+        experiment.and("[spectrum]\nmodes = 4").without_table("claims.integers").0,
+    );
+    let mut command = place.eigensync(&["check", "tiny.toml"]);
+    let output = command.timeout(Duration::from_secs(10)).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    // Each sample compares 2·10¹⁰ pairs: days, as the estimate must say.
+    let seconds = said.rsplit_once("about ").unwrap().1.split(' ').next().unwrap();
+    assert!(seconds.parse::<f64>().unwrap() > 1e4, "{said}");
+    assert!(said.contains("5 values of epsilon, 1 to 5; 2 seeds, 10 runs"), "{said}");
+}
