@@ -2,8 +2,8 @@
 //! (and enter) the stable set at the couplings ε = σ_edge / |λ|, and between two of these the
 //! unstable modes, and so the clusters, stay the same.
 //!
-//! Eigenvalue 0 has σ = 0 at every ε, which is never inside the open stable set: the zero modes of a
-//! network of several components are not damped by any coupling and count as unstable throughout.
+//! Eigenvalue 0 has σ = 0 at every ε: the zero modes of a network of several components are unstable
+//! throughout, unless σ = 0 is stable itself, where oscillators are at rest.
 //!
 //! Source: Fan, Wang & Wang (2023), Sec. II, for a stable set σ > σ_c; bounded windows and
 //! unions of intervals follow from the same relation.
@@ -50,8 +50,9 @@ pub struct State {
     pub cells: Arc<Partition>,
     /// Clusters that chance alone explains, which were taken apart.
     pub coincidences: Option<Coincidences>,
-    /// Whether the range ends only because the next modes were not computed: at its lower end the
-    /// last computed eigenspace becomes unstable, and others may with it, or the next ones may.
+    /// Whether the range ends only because no more is known: at its lower end the last computed
+    /// eigenspace becomes unstable, and others may with it, or the next ones may; or a mode comes to
+    /// a σ below all that were looked at.
     pub truncated: bool,
 }
 
@@ -59,6 +60,13 @@ impl State {
     /// Whether a coupling strength lies in the range of this state, its upper end included.
     pub fn holds_at(&self, epsilon: f64) -> bool {
         epsilon > self.epsilon.0 && self.epsilon.1.is_none_or(|to| epsilon <= to)
+    }
+
+    /// Those of these states, from the largest ε down, that were merged into this one.
+    pub fn stretches<'a>(&self, states: &'a [Self]) -> &'a [Self] {
+        let (from, to) = self.epsilon;
+        let start = to.map_or(0, |to| states.partition_point(|state| state.epsilon.0 >= to));
+        &states[start..states.partition_point(|state| state.epsilon.0 >= from)]
     }
 }
 
@@ -164,15 +172,16 @@ impl Eigenspace {
     }
 }
 
-/// Down to which ε the computed modes decide: 0 if they are all there are.
+/// Down to which ε the computed modes decide: 0 if they are all there are, and all σ are known.
 fn lowest_coupling(
     spectrum: &Spectrum,
     eigenspaces: &[Eigenspace],
     stable: &StableRegion,
 ) -> Result<f64, ClusteringError> {
     let (computed, n_nodes) = (spectrum.eigenvalues.len(), spectrum.eigenvectors[0].len());
+    let unknown_below = lowest_looked_at(eigenspaces, stable);
     if computed == n_nodes {
-        return Ok(0.0);
+        return Ok(unknown_below);
     }
     let of_cutoff = spectrum.cutoff.map_or(0.0, |cutoff| -cutoff);
     let largest = eigenspaces.last().map_or(0.0, |space| space.magnitude).max(of_cutoff);
@@ -180,9 +189,18 @@ fn lowest_coupling(
         return Err(ClusteringError::NoTransverseMode { computed, n_nodes });
     }
     match stable.intervals.last() {
-        Some(interval) if interval.to.is_none() => Ok(interval.from / largest),
+        Some(interval) if interval.upper().is_none() => {
+            Ok(unknown_below.max(interval.lower() / largest))
+        }
         _ => Err(ClusteringError::PartialSpectrum { computed, n_nodes }),
     }
+}
+
+/// ε at which the slowest mode comes to the lowest σ that was looked at, if the stable set begins
+/// only there; else 0.
+fn lowest_looked_at(eigenspaces: &[Eigenspace], stable: &StableRegion) -> f64 {
+    let slowest = eigenspaces.iter().map(|space| space.magnitude).find(|&lambda| lambda > 0.0);
+    stable.unknown_below().zip(slowest).map_or(0.0, |(sigma, lambda)| sigma / lambda)
 }
 
 /// The ranges of ε between neighbouring transitions, from the largest down to `lowest`.
@@ -191,7 +209,7 @@ fn ranges(
     stable: &StableRegion,
     lowest: f64,
 ) -> Vec<(f64, Option<f64>)> {
-    let edges = stable.intervals.iter().flat_map(|interval| [Some(interval.from), interval.to]);
+    let edges = stable.intervals.iter().flat_map(|i| [Some(i.lower()), i.upper()]);
     let mut couplings: Vec<f64> = edges
         .flatten()
         .flat_map(|edge| eigenspaces.iter().map(move |space| edge / space.magnitude))

@@ -4,7 +4,7 @@ use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
 use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
 use crate::zeros::{self, Refinement, Zero};
-use crate::{Interval, MsfError, StableRegion};
+use crate::{End, Interval, MsfError, StableRegion};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
 const ISOLATED_ORBITS: u64 = 16;
@@ -42,41 +42,8 @@ pub struct MasterStability {
     pub lambda: Vec<Estimate>,
     /// Λ(0): the largest Lyapunov exponent of the isolated oscillator.
     pub isolated: Estimate,
-    /// Zeros of Λ within the grid, ascending.
-    pub zeros: Vec<Zero>,
-    /// Whether Λ is negative before its first zero.
-    pub initially_stable: bool,
-}
-
-impl MasterStability {
-    /// The stable set {Λ < 0} as far as the grid reaches. An interval that is still stable at the last
-    /// σ of the grid has no upper end.
-    pub fn stable_region(&self) -> StableRegion {
-        let first_sigma = self.sigma.first().copied().unwrap_or_default();
-        let mut open = self.initially_stable.then_some(first_sigma);
-        let mut intervals = Vec::new();
-        for zero in &self.zeros {
-            match (zero.falling, open) {
-                (true, None) => open = Some(zero.sigma),
-                (false, Some(from)) => {
-                    intervals.push(Interval { from, to: Some(zero.sigma) });
-                    open = None;
-                }
-                // Zeros alternate, since each is a change of sign.
-                (true, Some(_)) | (false, None) => {}
-            }
-        }
-        intervals.extend(open.map(|from| Interval { from, to: None }));
-        StableRegion { intervals }
-    }
-
-    /// σ_c: the edge of the stable set when that is σ > σ_c, as far as the grid reaches.
-    pub fn sigma_c(&self) -> Option<Zero> {
-        match self.zeros[..] {
-            [zero] if zero.falling => Some(zero),
-            _ => None,
-        }
-    }
+    /// The stable set {Λ < 0} as far as was looked.
+    pub stable: StableRegion,
 }
 
 /// Computes Λ on the grid, the isolated exponent, and every zero to the accuracy asked for, or as
@@ -120,7 +87,31 @@ pub fn master_stability(
                 sigmas.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
             Ok(exponents(&tangents)?.iter().map(|estimate| estimate.mean).collect())
         })?;
-    Ok(MasterStability { zeros, initially_stable, ..curve })
+    let stable = region(&curve.sigma, &zeros, initially_stable);
+    Ok(MasterStability { stable, ..curve })
+}
+
+/// The intervals between zeros, open at the ends of the grid where these are stable.
+fn region(sigma: &[f64], zeros: &[Zero], initially_stable: bool) -> StableRegion {
+    let looked = |sigma: Option<&f64>| End::Looked { sigma: sigma.copied().unwrap_or_default() };
+    let mut open = initially_stable.then(|| match sigma.first() {
+        Some(&sigma) if sigma > 0.0 => looked(Some(&sigma)),
+        _ => End::Origin { included: false },
+    });
+    let mut intervals = Vec::new();
+    for &zero in zeros {
+        match (zero.falling, open) {
+            (true, None) => open = Some(End::Zero(zero)),
+            (false, Some(from)) => {
+                intervals.push(Interval { from, to: End::Zero(zero) });
+                open = None;
+            }
+            // Zeros alternate, since each is a change of sign.
+            (true, Some(_)) | (false, None) => {}
+        }
+    }
+    intervals.extend(open.map(|from| Interval { from, to: looked(sigma.last()) }));
+    StableRegion { intervals }
 }
 
 /// Seeds that follow one another, so that no two orbits of a computation are the same.
@@ -140,16 +131,10 @@ mod tests {
     use super::*;
 
     fn stable(initially_stable: bool, zeros: &[(f64, bool)]) -> Vec<(f64, Option<f64>)> {
-        let zeros =
-            zeros.iter().map(|&(sigma, falling)| Zero { sigma, standard_error: 0.0, falling });
-        let curve = MasterStability {
-            sigma: vec![0.0, 10.0],
-            zeros: zeros.collect(),
-            initially_stable,
-            ..MasterStability::default()
-        };
-        let region = curve.stable_region();
-        region.intervals.iter().map(|interval| (interval.from, interval.to)).collect()
+        let zeros: Vec<_> =
+            zeros.iter().map(|&(sigma, falling)| Zero::exact(sigma, falling)).collect();
+        let region = region(&[0.0, 10.0], &zeros, initially_stable);
+        region.intervals.iter().map(|interval| (interval.lower(), interval.upper())).collect()
     }
 
     #[test]

@@ -17,5 +17,5 @@ pub use critical::{CriticalCoupling, critical_couplings};
 pub use curve::{MasterStability, Node, Request, master_stability};
 pub use error::MsfError;
 pub use reach::reach;
-pub use stable_region::{Interval, StableRegion};
+pub use stable_region::{End, Interval, StableRegion};
 pub use zeros::{Refinement, Zero};

@@ -20,9 +20,16 @@ pub struct Zero {
     pub standard_error: f64,
     /// Whether Λ falls through zero, so that larger σ is stable.
     pub falling: bool,
+    /// Whether it is known as well as was asked for: [`Refinement::relative_error`].
+    pub refined: bool,
 }
 
 impl Zero {
+    /// A zero that is known exactly, as in closed forms.
+    pub fn exact(sigma: f64, falling: bool) -> Self {
+        Self { sigma, standard_error: 0.0, falling, refined: true }
+    }
+
     /// Interval that holds the zero with a probability of 95 %.
     pub fn confidence_interval(&self) -> [f64; 2] {
         let half_width = 1.96 * self.standard_error;
@@ -117,7 +124,8 @@ fn refine(
 ) -> Result<Zero, MsfError> {
     let [from, to] = bracket;
     let whole = 0.5 * (to - from);
-    let mut best = Zero { sigma: 0.5 * (from + to), standard_error: whole, falling };
+    let mut best =
+        Zero { sigma: 0.5 * (from + to), standard_error: whole, falling, refined: false };
     let mut window = whole;
     let mut samples: Vec<(f64, f64)> = Vec::new();
     for _ in 0..refinement.max_rounds {
@@ -139,7 +147,8 @@ fn refine(
         }
         let target = refinement.relative_error * best.sigma;
         let narrow = (20.0 * target).max(8.0 * best.standard_error);
-        if best.standard_error <= target && window <= narrow {
+        best.refined = best.standard_error <= target && window <= narrow;
+        if best.refined {
             break;
         }
         window = window.min((0.25 * window).max(narrow));
@@ -186,6 +195,7 @@ impl Line {
                 sigma: self.centre + offset,
                 standard_error: variance.sqrt() / self.slope.abs(),
                 falling,
+                refined: false,
             }
         })
     }

@@ -129,7 +129,7 @@ fn msf(findings: &Findings) -> LinePanel {
         sigma: msf.sigma.clone(),
         lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),
         standard_error: msf.lambda.iter().map(|lambda| lambda.standard_error).collect(),
-        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+        stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
     })
 }
 

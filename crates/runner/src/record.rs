@@ -6,6 +6,7 @@ mod states;
 
 use std::time::Duration;
 
+use msf::{End, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -99,8 +100,10 @@ pub struct VerifiedRecord {
 pub struct MsfRecord {
     pub lyapunov_isolated: f64,
     pub lyapunov_isolated_standard_error: f64,
-    /// Stable intervals of σ, [from, to]; no upper end where the grid ends stable.
+    /// Stable intervals of σ, [from, to]; no upper end where the look ends stable.
     pub stable: Vec<(f64, Option<f64>)>,
+    /// What the ends of these intervals are.
+    pub stable_ends: Vec<[EndRecord; 2]>,
     pub sigma_c: Option<f64>,
     pub standard_error: Option<f64>,
     pub confidence_interval: Option<[f64; 2]>,
@@ -108,11 +111,44 @@ pub struct MsfRecord {
     pub zeros: Vec<ZeroRecord>,
 }
 
+/// An end of a stable interval.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum EndRecord {
+    Zero {
+        sigma: f64,
+        standard_error: f64,
+        refined: bool,
+    },
+    /// σ = 0, stable itself or only the limit.
+    Origin {
+        included: bool,
+    },
+    /// No end is known: the last σ that was looked at.
+    Looked {
+        sigma: f64,
+    },
+}
+
+impl From<End> for EndRecord {
+    fn from(end: End) -> Self {
+        match end {
+            End::Zero(Zero { sigma, standard_error, refined, .. }) => {
+                Self::Zero { sigma, standard_error, refined }
+            }
+            End::Origin { included } => Self::Origin { included },
+            End::Looked { sigma } => Self::Looked { sigma },
+        }
+    }
+}
+
 #[derive(Serialize)]
 pub struct ZeroRecord {
     pub sigma: f64,
     pub standard_error: f64,
     pub falling: bool,
+    /// Whether it is known as well as was asked for.
+    pub refined: bool,
 }
 
 #[derive(Serialize)]
@@ -123,6 +159,8 @@ pub struct CriticalRecord {
     pub epsilon: Option<f64>,
     pub standard_error: Option<f64>,
     pub stable_above: bool,
+    /// Whether the zero of Λ behind it is known as well as was asked for.
+    pub refined: bool,
 }
 
 #[derive(Serialize)]
@@ -247,24 +285,21 @@ fn step_record(report: &graph::prepare::Report) -> StepRecord {
 
 fn msf_record(findings: &Findings) -> MsfRecord {
     let msf = &findings.msf;
-    let sigma_c = msf.sigma_c();
+    let sigma_c = msf.stable.sigma_c();
     MsfRecord {
         lyapunov_isolated: msf.isolated.mean,
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
-        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+        stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
+        stable_ends: msf.stable.intervals.iter().map(|i| [i.from, i.to].map(Into::into)).collect(),
         sigma_c: sigma_c.map(|zero| zero.sigma),
         standard_error: sigma_c.map(|zero| zero.standard_error),
         confidence_interval: sigma_c.map(|zero| zero.confidence_interval()),
-        zeros: msf
-            .zeros
-            .iter()
-            .map(|zero| ZeroRecord {
-                sigma: zero.sigma,
-                standard_error: zero.standard_error,
-                falling: zero.falling,
-            })
-            .collect(),
+        zeros: msf.stable.zeros().map(zero_record).collect(),
     }
+}
+
+fn zero_record(Zero { sigma, standard_error, falling, refined }: Zero) -> ZeroRecord {
+    ZeroRecord { sigma, standard_error, falling, refined }
 }
 
 fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
@@ -275,6 +310,7 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
         epsilon: finite(critical.epsilon),
         standard_error: finite(critical.standard_error),
         stable_above: critical.stable_above,
+        refined: critical.refined,
     };
     findings.critical.iter().map(record).collect()
 }

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use crate::fixtures::{leading, nepal, random_network, read, six_nodes, spectrum_of};
 
 fn region(from: f64, to: Option<f64>) -> StableRegion {
-    StableRegion { intervals: vec![Interval { from, to }] }
+    StableRegion { intervals: vec![Interval::known(from, to)] }
 }
 
 fn only(mut trees: Vec<CascadeTree>) -> CascadeTree {

@@ -24,17 +24,14 @@ struct Predicted {
 }
 
 fn predicted(network: &Network, spectrum: &Spectrum, rule: ClusterRule) -> Predicted {
-    let stable = StableRegion { intervals: vec![Interval { from: 1.0, to: None }] };
+    let stable = StableRegion { intervals: vec![Interval::known(1.0, None)] };
     let w = CouplingMatrix::new(network, Normalization::Laplacian).matrix().clone();
     let mut stretches = cascade(spectrum, &stable, rule).unwrap();
     hold_against_links(&mut stretches, spectrum, w.view(), rule, TOLERANCE).unwrap();
     let states = merge_equal_clusters(&stretches);
     let of = |state: &State| {
-        let is_in = |s: &&State| {
-            s.epsilon.0 >= state.epsilon.0 && state.holds_at(s.epsilon.0 * (1.0 + 1e-9))
-        };
-        let stretches: Vec<State> = stretches.iter().filter(is_in).cloned().collect();
-        StateLabels::of(state, &stretches, spectrum, w.view(), rule, TOLERANCE).unwrap()
+        let stretches = state.stretches(&stretches);
+        StateLabels::of(state, stretches, spectrum, w.view(), rule, TOLERANCE).unwrap()
     };
     Predicted { labels: states.iter().map(of).collect(), states, w }
 }

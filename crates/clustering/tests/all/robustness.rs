@@ -13,7 +13,7 @@ use crate::fixtures::{nepal, read, spectrum_of};
 const RULES: [ClusterRule; 2] = [ClusterRule::Exact, ClusterRule::Threshold(1e-6)];
 
 fn above(sigma_c: f64) -> StableRegion {
-    StableRegion { intervals: vec![Interval { from: sigma_c, to: None }] }
+    StableRegion { intervals: vec![Interval::known(sigma_c, None)] }
 }
 
 /// The states of a network, with the labels of each state's clusters.

@@ -28,8 +28,8 @@ impl SpectrumPlan {
     pub fn request(&self, stable: &StableRegion) -> Result<Request> {
         let Some(epsilon) = self.unstable_at else { return Ok(self.request) };
         match stable.intervals.last() {
-            Some(interval) if interval.to.is_none() => {
-                Ok(Request { modes: Modes::Above(-interval.from / epsilon), ..self.request })
+            Some(interval) if interval.upper().is_none() => {
+                Ok(Request { modes: Modes::Above(-interval.lower() / epsilon), ..self.request })
             }
             _ => {
                 let message = "`spectrum.modes` asks for the modes that are unstable at some ε, but \
