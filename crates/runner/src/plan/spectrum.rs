@@ -39,6 +39,11 @@ impl SpectrumPlan {
         }
     }
 
+    /// Largest relative residual of a mode.
+    pub fn tolerance(&self) -> f64 {
+        self.request.tolerance
+    }
+
     /// The most modes that there may be.
     pub fn most_modes(&self, n_nodes: usize) -> usize {
         match self.request.modes {

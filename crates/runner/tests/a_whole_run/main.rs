@@ -3,7 +3,10 @@
 
 mod cascade;
 mod comparison;
+mod faults;
+mod figures;
 mod odd_networks;
+mod place;
 mod predict;
 mod results;
 #[path = "../support/mod.rs"]
