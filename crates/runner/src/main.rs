@@ -19,6 +19,7 @@ mod output;
 mod overview;
 mod plan;
 mod predict;
+mod prediction;
 mod problem;
 mod progress;
 mod provenance;
@@ -26,6 +27,8 @@ mod record;
 mod results;
 mod simulated;
 mod spec;
+mod stability;
+mod synchrony;
 mod table;
 mod warning;
 

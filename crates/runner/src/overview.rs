@@ -6,12 +6,13 @@ use std::fmt::Write;
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use msf::{End, Interval, MasterStability};
+use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
 use crate::findings::{EQUITABLE, Findings};
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
+use crate::stability::with_error;
 use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
@@ -28,7 +29,9 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("network", network(plan));
     line("modes", modes(findings));
     line("lambda", lambda(findings));
+    line("isolated", isolated(findings));
     line("stable for", stable(findings));
+    line("verdict", findings.synchrony.verdict.clone());
     line("", String::new());
     text.push_str(&cascade(plan, findings));
     text.push_str(&exactness(findings));
@@ -77,6 +80,17 @@ fn lambda(findings: &Findings) -> String {
     abridged(values.map(|&value| four_digits(value)))
 }
 
+/// Λ(0) and what it says.
+fn isolated(findings: &Findings) -> String {
+    let isolated = findings.msf.isolated;
+    let says = match findings.msf.state {
+        Isolated::Chaotic => "chaotic",
+        Isolated::Periodic => "periodic, 0 within its errors",
+        Isolated::AtRest => "at rest, nodes become equal without coupling",
+    };
+    format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
+}
+
 fn stable(findings: &Findings) -> String {
     let MasterStability { stable, sigma, .. } = &findings.msf;
     let looked = format!(
@@ -101,8 +115,9 @@ fn interval(Interval { from, to }: &Interval) -> String {
 
 fn end(end: &End) -> String {
     match end {
+        End::Zero(zero) if zero.refined => with_error(zero.sigma, zero.standard_error),
         End::Zero(zero) => {
-            format!("{} ± {}", four_digits(zero.sigma), two_digits(zero.standard_error))
+            format!("{} (not as good as asked)", with_error(zero.sigma, zero.standard_error))
         }
         End::Origin { .. } => "0".into(),
         End::Looked { sigma } => format!("{} (the end of the look)", four_digits(*sigma)),

@@ -142,6 +142,12 @@ pub fn four_digits(number: f64) -> String {
     format!("{digits}")
 }
 
+/// A number with three significant digits.
+pub fn three_digits(number: f64) -> String {
+    let digits = format!("{number:.2e}").parse::<f64>().unwrap_or(number);
+    format!("{digits}")
+}
+
 /// A number with two significant digits.
 pub fn two_digits(number: f64) -> String {
     if number != 0.0 && number.abs() < 1e-5 {

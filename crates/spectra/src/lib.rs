@@ -37,6 +37,7 @@ mod random;
 mod request;
 mod ritz;
 mod separator;
+mod smallest;
 mod spectrum;
 mod subspace;
 mod verification;
@@ -45,6 +46,7 @@ mod wanted;
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
+pub use smallest::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 
