@@ -12,7 +12,7 @@
 //! Source: E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), Sec. IV.2. The
 //! Jacobians are frozen over a step, which is what a stiff direction sees.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, Schur};
 
 use crate::integrators::rk4::{self, Flow};
 use crate::oscillators::with_oscillator;
@@ -27,6 +27,10 @@ const TRANSIENT: u32 = 40_000;
 const SAMPLES: usize = 250;
 /// Steps from one to the next.
 const STRIDE: u32 = 400;
+/// Entries of Jacobians beyond this are beyond any step.
+const HUGE: f64 = 1e100;
+/// Sweeps of the QR algorithm; a few for each eigenvalue are usual.
+const MOST_SWEEPS: usize = 10_000;
 /// How far the rate of the leading direction may be off, relatively, before it is worth a word.
 const ACCURATE: f64 = 0.1;
 
@@ -134,8 +138,19 @@ impl LinearSteps {
         self.jacobians.iter().map(move |jacobian| {
             let mut a = jacobian.clone();
             a[(to, from)] -= sigma;
-            a.complex_eigenvalues().iter().copied().collect()
+            eigenvalues(a)
         })
+    }
+}
+
+/// Eigenvalues of a small matrix. Of one that is too large for its squares to be numbers, a single rate
+/// of its size, which no step can follow.
+fn eigenvalues(a: DMatrix<f64>) -> Vec<Complex<f64>> {
+    let size = a.iter().fold(0.0f64, |size, entry| size.max(entry.abs()));
+    let schur = (size < HUGE).then(|| Schur::try_new(a, f64::EPSILON, MOST_SWEEPS)).flatten();
+    match schur {
+        Some(schur) => schur.complex_eigenvalues().iter().copied().collect(),
+        None => vec![Complex::new(-size, 0.0)],
     }
 }
 
@@ -169,10 +184,12 @@ fn jacobians<O: Oscillator<D>, const D: usize>(
             state = rk4::step(&flow, state, step);
         }
         steps += until;
-        if !state.iter().all(|x| x.abs() < ESCAPE_RADIUS) {
+        let here = jacobian(oscillator, state);
+        let bounded = state.iter().all(|x| x.abs() < ESCAPE_RADIUS);
+        if !(bounded && here.iter().all(|entry| entry.is_finite())) {
             return Err(DynamicsError::Escaped { time: f64::from(steps) * step });
         }
-        jacobians.push(jacobian(oscillator, state));
+        jacobians.push(here);
     }
     Ok(jacobians)
 }
@@ -229,6 +246,15 @@ mod tests {
         assert!(matches!(verdicts[5], StepVerdict::Unstable { factor } if factor > 1.0));
         let sound = steps.sound_step(1.1 * end, 0.01).unwrap();
         assert!((0.008..0.01).contains(&sound), "{sound}");
+    }
+
+    #[test]
+    fn numbers_beyond_all_sense_are_answered_too() {
+        for sigma in [1e30, 1e155, 1e300, f64::MAX] {
+            let steps = lorenz(0, 0);
+            assert!(matches!(steps.judge(sigma, 0.01), StepVerdict::Unstable { .. }), "{sigma}");
+            assert!(steps.stable_up_to(sigma, 0.01) < 300.0);
+        }
     }
 
     #[test]

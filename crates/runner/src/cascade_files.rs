@@ -12,9 +12,9 @@ use std::io::BufWriter;
 use clustering::{CascadeTree, TreeCluster};
 
 use crate::findings::Findings;
+use crate::place::Folder;
 use crate::plan::Plan;
 use crate::problem::Result;
-use crate::record::Folder;
 use crate::results::number;
 
 const COLUMNS: [&str; 12] = [

@@ -8,8 +8,9 @@ use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{Adaptive, AdaptiveOrder, Method, Observables, Schedule, Simulation};
 use spectra::Spectrum;
 
-use crate::plan::{Plan, Sweep};
-use crate::spec::MatrixKind;
+use crate::drawing;
+use crate::plan::{Memory, Plan, Sweep};
+use crate::spec::{FigureKind, MatrixKind};
 use crate::warning::Warnings;
 
 /// What is unusual about a network, before anything is computed.
@@ -112,9 +113,22 @@ pub fn describe(plan: &Plan) -> String {
             ),
         );
     }
+    line("figure", figure(plan));
     line("claims", experiment.claims.len().to_string());
+    line("memory", Memory::of(plan).to_string());
     line("cost", cost(plan));
     text
+}
+
+/// The kind of the figure, and what it will not show as asked.
+fn figure(plan: &Plan) -> String {
+    let kind = match plan.figure().kind {
+        FigureKind::Sweep => "sweep",
+        FigureKind::Matrices => "matrices",
+        FigureKind::Regions => "regions",
+        FigureKind::None => "none",
+    };
+    std::iter::once(kind.to_owned()).chain(drawing::foreseen(plan)).collect::<Vec<_>>().join("; ")
 }
 
 /// The integrator by the name that experiment files call it.

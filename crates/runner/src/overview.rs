@@ -145,17 +145,21 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
         let computed = findings.spectrum.eigenvalues.len();
+        let n_nodes = plan.network.n_nodes();
         let why = match findings.spectrum.cutoff {
-            Some(_) => "down to which unstable modes were asked for".to_owned(),
-            None => format!("where mode {computed} becomes unstable, the last one computed"),
+            _ if computed == n_nodes => {
+                "below which a mode comes to a sigma that was not looked at".to_owned()
+            }
+            Some(_) => {
+                format!("down to which unstable modes of {} were asked for", grouped(n_nodes))
+            }
+            None => format!(
+                "where mode {computed} of {} becomes unstable, the last one computed",
+                grouped(n_nodes)
+            ),
         };
-        writeln!(
-            text,
-            "The states end at epsilon = {}, {why}, of {}.",
-            four_digits(last.epsilon.0),
-            grouped(plan.network.n_nodes())
-        )
-        .expect("a string takes every line");
+        writeln!(text, "The states end at epsilon = {}, {why}.", four_digits(last.epsilon.0))
+            .expect("a string takes every line");
     }
     text
 }

@@ -1,7 +1,6 @@
-//! `summary.json`: a run in numbers. `record/states` has the predicted states, `record/folder` the
-//! folder in which it is written.
+//! `summary.json`: a run in numbers. `record/states` has the predicted states.
 
-mod folder;
+mod parameters;
 mod states;
 
 use std::time::Duration;
@@ -13,24 +12,33 @@ use serde_json::Value;
 use crate::agreement::Agreement;
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
+use crate::place::Origin;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{OverSeeds, completed};
+use crate::spec::StepSpec;
 use crate::stability::word;
 use crate::synchrony::Synchrony;
 use crate::warning::Warning;
 
-pub use folder::{Folder, check_writable};
 pub use states::StateRecord;
+
+/// Version of the layout of `summary.json`: it grows when a key goes or changes its meaning, not when
+/// one is added. Files without it are of version 0.1.0 of the program.
+pub const LAYOUT: u32 = 1;
 
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
 #[derive(Serialize)]
 pub struct Summary {
+    /// Version of the layout of this file.
+    pub layout: u32,
     pub id: String,
     pub title: String,
     pub source: String,
     /// The experiment file as parsed, defaults left out.
     pub experiment: Value,
+    /// Every parameter used, in the words of experiment files, defaults among them.
+    pub parameters: Value,
     /// 1 for a full run; by how much `--quick` shortened all times.
     pub shortened: f64,
     pub network: NetworkRecord,
@@ -64,7 +72,8 @@ pub struct NetworkRecord {
 
 #[derive(Serialize)]
 pub struct StepRecord {
-    pub step: String,
+    /// As experiment files say it.
+    pub step: Value,
     pub removed_nodes: usize,
     pub removed_groups: Vec<String>,
     pub removed_links: usize,
@@ -236,16 +245,19 @@ pub fn summarise(
     findings: &Findings,
     claims: Vec<Claim>,
     took: (Duration, &[(String, Duration)]),
+    origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
     let links_hash = links_hash(network);
     Summary {
+        layout: LAYOUT,
+        parameters: parameters::of(plan),
         id: plan.id.clone(),
         title: plan.experiment.title.clone(),
         source: plan.experiment.source.clone(),
         shortened: plan.shortened,
         network: NetworkRecord {
-            preparation: plan.preparation.iter().map(step_record).collect(),
+            preparation: step_records(plan),
             groups: network.groups().len(),
             nodes: network.n_nodes(),
             links: network.n_links(),
@@ -279,7 +291,7 @@ pub fn summarise(
         simulations: simulation_records(plan, findings),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took),
+        provenance: Provenance::new(plan, &links_hash, took, origin),
         experiment: plan.written.clone(),
     }
 }
@@ -294,9 +306,9 @@ fn verified(verification: spectra::Verification) -> VerifiedRecord {
     }
 }
 
-fn step_record(report: &graph::prepare::Report) -> StepRecord {
-    StepRecord {
-        step: format!("{:?}", report.step),
+fn step_records(plan: &Plan) -> Vec<StepRecord> {
+    let record = |(step, report): (&StepSpec, &graph::prepare::Report)| StepRecord {
+        step: serde_json::to_value(step).unwrap_or_default(),
         removed_nodes: report.removed_nodes.len(),
         removed_groups: report.removed_groups.clone(),
         removed_links: report.removed_links,
@@ -305,7 +317,8 @@ fn step_record(report: &graph::prepare::Report) -> StepRecord {
         nodes: report.n_nodes,
         links: report.n_links,
         directed: report.directed,
-    }
+    };
+    plan.experiment.prepare.iter().zip(&plan.preparation).map(record).collect()
 }
 
 fn msf_record(findings: &Findings) -> MsfRecord {

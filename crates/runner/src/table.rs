@@ -33,6 +33,9 @@ fn table(claims: &[Claim]) -> String {
         if let Some(uncertainty) = claim.uncertainty {
             obtained.push_str(&format!(" ± {}", two_digits(uncertainty)));
         }
+        if claim.refined == Some(false) {
+            obtained.push_str(", not as good as asked");
+        }
         let name = claim.name.replace('_', " ");
         table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }

@@ -42,6 +42,12 @@ pub enum FigureError {
         /// Columns of the grid.
         n_columns: usize,
     },
+    /// A fault of the program itself.
+    #[error("panel {panel} met a fault of eigensync in drawing")]
+    Panicked {
+        /// Its letter.
+        panel: String,
+    },
     /// No room is left for the data once the labels are set.
     #[error("panel {panel} leaves {width:.0} pt × {height:.0} pt for its data; give it more room")]
     TooSmall {
@@ -139,14 +145,6 @@ pub enum FigureError {
         panel: String,
         /// Number of rows asked for.
         n_nodes: usize,
-        /// Values given.
-        n_values: usize,
-    },
-    /// A matrix without a single finite value.
-    #[error("panel {panel}: none of the {n_values} values of the matrix is finite")]
-    NoFiniteValue {
-        /// Letter of the panel.
-        panel: String,
         /// Values given.
         n_values: usize,
     },

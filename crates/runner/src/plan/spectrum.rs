@@ -49,11 +49,22 @@ impl SpectrumPlan {
         Request { modes, ..self.request }
     }
 
+    /// Largest relative residual of a mode.
+    pub fn tolerance(&self) -> f64 {
+        self.request.tolerance
+    }
+
+    /// The modes asked for, or by default.
+    pub fn wanted(&self) -> ModesSpec {
+        self.wanted
+    }
+
     /// The most modes that there may be.
     pub fn most_modes(&self, n_nodes: usize) -> usize {
         match (self.wanted, self.request.modes) {
             (ModesSpec::Leading(_), Modes::Leading(modes)) => modes,
             (ModesSpec::UnstableAt(_), _) => self.request.max_modes.min(n_nodes),
+            (ModesSpec::Auto, _) if n_nodes > ALL_MODES => LEADING_MODES,
             _ => n_nodes,
         }
     }

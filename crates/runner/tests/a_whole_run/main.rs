@@ -3,9 +3,13 @@
 
 mod cascade;
 mod comparison;
+mod faults;
+mod figures;
 mod odd_networks;
+mod place;
 mod predict;
 mod results;
+mod stability;
 #[path = "../support/mod.rs"]
 mod support;
 mod trouble;

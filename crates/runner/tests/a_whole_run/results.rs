@@ -182,9 +182,7 @@ fn results_are_the_same_to_the_last_bit_for_any_number_of_threads() {
 fn running_again_replaces_the_whole_folder() {
     let (place, _) = run(&tiny(), SIX_NODES, 0);
     let before = without_provenance(place.json("results/tiny/summary.json"));
-    place.write("results/tiny/left-over.csv", "");
     place.answer(&["run", "tiny.toml"]).with_status(0);
-    assert!(!place.names("results/tiny").contains(&"left-over.csv".to_owned()));
     assert_eq!(place.names("results"), ["tiny"]);
     assert_eq!(without_provenance(place.json("results/tiny/summary.json")), before);
 }
@@ -216,12 +214,27 @@ fn check_tells_network_and_cost_and_writes_nothing() {
 fn list_shows_titles_results_and_what_is_wrong() {
     let (place, _) = run(&tiny(), SIX_NODES, 0);
     place.write("bad.toml", "title = 1");
+    place.write("changed.toml", tiny().set("seed", "2").0);
+    place.write("fresh.toml", tiny().0);
+    place.write("rewired.toml", tiny().replace("networks/six-node", "networks/other").0);
+    place.write("networks/other.edges", SIX_NODES);
+    for name in ["changed", "rewired"] {
+        place.answer(&["run", &format!("{name}.toml"), "--quick"]).with_status(0);
+    }
+    place.write("changed.toml", tiny().0);
+    place.write("networks/other.edges", format!("{SIX_NODES}1 3\n"));
+    place.write("results/.fresh.unfinished/lock", "");
+    place.write("results/.fresh.unfinished/journal", "hours of work");
     place.write("notes.txt", "");
     let answer = place.answer(&["list", "."]).with_status(0);
     let line = |name: &str| {
         answer.stdout.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("{name}"))
     };
     assert!(line("tiny.toml").contains("[results] Six Lorenz oscillators, in a hurry"));
+    let stale = "[results of a quick run, stale: the experiment or its network has changed since]";
+    assert!(line("changed.toml").contains(stale), "{}", answer.stdout);
+    assert!(line("rewired.toml").contains(stale), "{}", answer.stdout);
+    assert!(line("fresh.toml").contains("[unfinished: run it again"), "{}", answer.stdout);
     assert!(line("bad.toml").contains("cannot be read: "), "{}", answer.stdout);
     assert!(!answer.stdout.contains("notes.txt"));
 }
