@@ -9,8 +9,12 @@ use spectra::Spectrum;
 use crate::drawing;
 use crate::plan::{Memory, Plan, Sweep};
 use crate::spec::{FigureKind, MatrixKind};
+use crate::table::{four_digits, two_digits};
 use crate::trial;
 use crate::warning::Warnings;
+
+/// The largest residual, relative to the eigenvalue, that leaves this certain.
+const CERTAIN: f64 = 0.1;
 
 /// What is unusual about a network, before anything is computed.
 pub fn warn(plan: &Plan, warnings: &mut Warnings) {
@@ -38,21 +42,21 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
     }
 }
 
-/// Where links are too weak beside others to count in the spectrum.
-pub fn warn_of_weak_links(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) {
+/// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
+pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
-    if n_zero > plan.n_components {
-        let network = match plan.n_components {
-            1 => "the network is connected".into(),
-            n => format!("the network has {n} components"),
-        };
-        let message = format!(
-            "{network}, yet {n_zero} modes have eigenvalue 0 up to {:.0e}: links much weaker than \
-             the strongest hold no nodes together here",
-            spectrum.tolerance
-        );
-        warnings.add("spectrum.tolerance", message);
-    }
+    let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate().skip(n_zero);
+    let mut lost = modes.filter(|(_, (lambda, residual))| **residual > CERTAIN * lambda.abs());
+    let Some((mode, (lambda, residual))) = lost.next() else { return };
+    let message = format!(
+        "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
+         the strongest are lost in rounding",
+        mode + 1,
+        four_digits(*lambda),
+        two_digits(*residual),
+        lost.count()
+    );
+    warnings.add("eigenvalues", message);
 }
 
 /// The resolved plan and its cost.

@@ -1,7 +1,8 @@
 //! What an experiment found: the stages of a run in order, each from those before it.
 
 use clustering::{
-    CascadeTree, ClusteringError, Partition, State, StateLabels, merge_equal_clusters,
+    CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
+    merge_equal_clusters,
 };
 use dynamics::DynamicsError;
 use msf::{CriticalCoupling, MasterStability};
@@ -16,8 +17,8 @@ use crate::progress::Stages;
 use crate::simulated::Simulated;
 use crate::warning::{Warning, Warnings};
 
-/// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
-/// by rounding.
+/// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
+/// differ by rounding.
 pub const EQUITABLE: f64 = 1e-9;
 
 /// Clusters of fewer nodes are in no tree: a million single nodes tell nothing.
@@ -81,12 +82,15 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
             spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
         })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
-    check::warn_of_weak_links(plan, &spectrum, &mut warnings);
+    check::warn_of_weak_links(&spectrum, &mut warnings);
     let critical = msf::critical_couplings(&stable, &spectrum.eigenvalues, spectrum.tolerance);
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
         .measured("clusters", n_states, |progress| {
-            clustering::cascade_reported(&spectrum, &stable, plan.rule, progress)
+            let mut states = clustering::cascade_reported(&spectrum, &stable, plan.rule, progress)?;
+            let matrix = plan.matrix.matrix().view();
+            hold_against_links(&mut states, &spectrum, matrix, plan.rule, EQUITABLE)?;
+            Ok(states)
         })
         .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
@@ -99,9 +103,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         None => Vec::new(),
     };
     let cascade = merge_equal_clusters(&states);
-    drop(states);
-    let labels = labels(plan, &spectrum, &cascade, stages)
+    let labels = labels(plan, &spectrum, &cascade, &states, stages)
         .map_err(|error| failed("the clusters cannot be labelled", &error))?;
+    drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
@@ -130,17 +134,19 @@ fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {
 fn labels(
     plan: &Plan,
     spectrum: &Spectrum,
-    states: &[State],
+    cascade: &[State],
+    stretches: &[State],
     stages: &Stages,
 ) -> std::result::Result<Vec<StateLabels>, ClusteringError> {
-    let matrix = plan.matrix.matrix().view();
-    stages.measured("labels", states.len() as u64, |progress| {
+    let (matrix, rule) = (plan.matrix.matrix().view(), plan.rule);
+    stages.measured("labels", cascade.len() as u64, |progress| {
         let of = |state: &State| {
-            let labels = StateLabels::of(state, spectrum, matrix, EQUITABLE);
+            let stretches = state.stretches(stretches);
+            let labels = StateLabels::of(state, stretches, spectrum, matrix, rule, EQUITABLE);
             progress(1);
             labels
         };
-        states.par_iter().map(of).collect()
+        cascade.par_iter().map(of).collect()
     })
 }
 
@@ -192,7 +198,7 @@ fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
 impl Findings {
     /// The clusters predicted at a coupling strength; none where the prediction does not reach.
     pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
-        self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &state.clusters)
+        self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
     }
 
     /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.

@@ -89,7 +89,7 @@ fn is_table(name: &str) -> bool {
         Some(above) => parent == Some(above) && name[above.len() + 1..].find('.').is_none(),
         None => *table == name,
     };
-    is_where || TABLES.iter().any(|table| named(table))
+    is_where || TABLES.iter().any(named)
 }
 
 /// Longest experiment file, in bytes: some hundred times the longest that anybody wrote.

@@ -1,6 +1,8 @@
 //! A prediction in words: the network, its leading modes, the stable set, the cascade of states, which
 //! of their clusters are exact, and what it all took.
 
+mod exactness;
+
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
@@ -9,7 +11,7 @@ use comfy_table::presets::NOTHING;
 use msf::{End, Interval, MasterStability};
 use spectra::Verification;
 
-use crate::findings::{EQUITABLE, Findings};
+use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
 use crate::table::{four_digits, two_digits};
@@ -31,7 +33,7 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("stable for", stable(findings));
     line("", String::new());
     text.push_str(&cascade(plan, findings));
-    text.push_str(&exactness(findings));
+    text.push_str(&exactness::of(plan, findings));
     writeln!(text, "\n{}", cost(plan)).expect("a string takes every line");
     text
 }
@@ -145,31 +147,6 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     text
 }
 
-/// What `exact` means here, and how far the clusters that are not are from it.
-fn exactness(findings: &Findings) -> String {
-    let largest = |of: fn(&StateLabels) -> f64| findings.labels.iter().map(of).fold(0.0, f64::max);
-    let tolerance = largest(|labels| labels.exact_tolerance);
-    let mut text = format!(
-        "\nexact: equal within {} in all unstable modes, and within {EQUITABLE:e} in the total weights \
-         to every cluster\n",
-        two_digits(tolerance)
-    );
-    let kinds = findings.labels.iter().flat_map(|state| &state.labels);
-    let approximate = kinds.filter(|label| label.kind == ClusterKind::Approximate);
-    let worst = approximate.map(|label| (label.spread, label.deviation));
-    if let Some((spread, deviation)) = worst.reduce(|a, b| (a.0.max(b.0), a.1.max(b.1))) {
-        writeln!(
-            text,
-            "the other clusters are approximate: their nodes are up to {} apart in the unstable \
-             modes, their total weights differ by up to {} of a node's strength",
-            two_digits(spread),
-            two_digits(deviation)
-        )
-        .expect("a string takes every line");
-    }
-    text
-}
-
 /// Seconds by stage, and memory where the system tells it.
 fn cost(plan: &Plan) -> String {
     let stages = plan.stages.took().into_iter();
@@ -199,7 +176,10 @@ fn row(state: &State, labels: &StateLabels) -> [String; 6] {
     }
     [
         epsilon,
-        grouped(state.unstable_modes.len()),
+        match state.n_unstable {
+            (least, most) if least == most => grouped(least),
+            (least, most) => format!("{} to {}", grouped(least), grouped(most)),
+        },
         grouped(sizes.len()),
         grouped(labels.count(ClusterKind::Exact)),
         largest.join(" + "),

@@ -73,8 +73,8 @@ impl Place {
         })?;
         place.lock = Some(lock);
         exchange::try_out(&hidden).map_err(failed)?;
-        place.settle()?;
-        leftovers::of_version_0_1_0(results, id, &place.target()?.0)?;
+        let in_place = place.settle()?;
+        leftovers::of_version_0_1_0(results, id, &in_place)?;
         leftovers::of_dead_runs(results);
         Ok(place)
     }
@@ -150,14 +150,19 @@ impl Place {
             Problem::from_error("cannot be put in place", error).in_file(&place).hint(hint)
         };
         let is_newer = |ours: &Ours| manifest::is_newer(&whole, &ours.folder);
-        match &there {
-            None if whole.exists() => exchange::put(&whole, &place).map_err(failed)?,
-            None if replaced.exists() => exchange::put(&replaced, &place).map_err(failed)?,
+        let placed = match &there {
+            None if whole.exists() => exchange::put(&whole, &place),
+            None if replaced.exists() => exchange::put(&replaced, &place),
             Some(ours) if whole.exists() && is_newer(ours) => {
                 carry::link_along(&place, &whole);
-                exchange::swap(&whole, &place, &replaced, ours.identity).map_err(failed)?;
+                exchange::swap(&whole, &place, &replaced, ours.identity)
             }
-            _ => {}
+            _ => Ok(()),
+        };
+        match placed {
+            // A full run and a quick one of the same experiment have finished at the same time.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return self.settle(),
+            placed => placed.map_err(failed)?,
         }
         for older in [whole, replaced] {
             if older.exists() {

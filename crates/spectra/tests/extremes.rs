@@ -98,15 +98,16 @@ fn weights_over_twelve_orders_keep_eigenvalues_to_the_tolerance_of_the_strongest
 }
 
 #[test]
-fn what_is_weaker_than_the_tolerance_counts_as_apart() {
-    // Two strong pairs behind a link 10⁻¹² as strong: their difference mode is not told from 0.
+fn what_is_weaker_than_the_tolerance_has_an_eigenvalue_of_its_own() {
+    // Two strong pairs behind a link 10⁻¹² as strong: 1e-6 (1/2 + 1/2) against each other.
     let w = CouplingMatrix::new(
         &network(4, &[(0, 1, 1e6), (2, 3, 1e6), (1, 2, 1e-6)]),
         Normalization::Laplacian,
     );
     for solver in EVERY {
         let spectrum = solve(&w, &with(solver, Modes::Leading(1)));
-        assert_eq!((spectrum.eigenspaces.len(), spectrum.eigenvalues.len()), (1, 2), "{solver:?}");
+        assert_eq!(spectrum.eigenspaces, [0..1, 1..2], "{solver:?}");
+        check_eigenvalues(&spectrum, &[0.0, -1e-6], 1e-15);
         assert!(spectrum.tolerance >= 1e-10 * 1e6);
     }
 }

@@ -312,7 +312,7 @@ proptest! {
             let modes: Vec<usize> = (1..n).filter(unstable).collect();
             prop_assert_eq!(&found[0].unstable_modes, &modes);
             let distance = EigenvectorDistance::new(&spectrum, &modes).unwrap();
-            prop_assert_eq!(&found[0].clusters, &distance.exact_clusters().unwrap());
+            prop_assert_eq!(&*found[0].clusters, &distance.exact_clusters().unwrap());
         }
     }
 
@@ -328,7 +328,7 @@ proptest! {
             prop_assert_eq!(state.epsilon, exact_state.epsilon);
             prop_assert_eq!(&state.unstable_modes, &exact_state.unstable_modes);
             let distance = EigenvectorDistance::new(&spectrum, &state.unstable_modes).unwrap();
-            prop_assert_eq!(&state.clusters, &distance.clusters_within(threshold).unwrap());
+            prop_assert_eq!(&*state.clusters, &distance.clusters_within(threshold).unwrap());
         }
     }
 

@@ -147,6 +147,8 @@ fn kept(name: &OsStr, number: usize) -> OsString {
 mod tests {
     use super::*;
 
+    const SUMMARY_TEXT: &str = "{\n  \"a\": 0.1,\n  \"provenance\": {\n    \"seed\": 1\n  }\n}\n";
+
     #[test]
     fn a_taken_name_is_kept_beside() {
         let of = |name: &str, number| kept(OsStr::new(name), number).into_string().unwrap();
@@ -164,7 +166,7 @@ mod tests {
             fs::create_dir(folder).unwrap();
             fs::write(folder.join("msf.csv"), "ours").unwrap();
             fs::write(folder.join("sweep.csv"), "ours").unwrap();
-            fs::write(folder.join("summary.json"), r#"{"a": 0.1, "provenance": {}}"#).unwrap();
+            fs::write(folder.join("summary.json"), SUMMARY_TEXT).unwrap();
             super::super::manifest::seal(folder).unwrap();
         }
         fs::write(old.join("sweep.csv"), "edited").unwrap();

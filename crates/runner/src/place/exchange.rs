@@ -3,7 +3,7 @@
 //! the first of which is undone if the second fails.
 
 use std::fs::{self, File};
-use std::io::{Error, ErrorKind, Result, Write};
+use std::io::{ErrorKind, Result, Write};
 use std::path::Path;
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -41,13 +41,14 @@ pub fn put(from: &Path, to: &Path) -> Result<()> {
     flush_parent(to)
 }
 
-/// Exchanges a new folder for the one in place, which must still be the one that was looked at. The
-/// old one is afterwards where the new one was, or aside.
+/// Exchanges a new folder for the one in place, which must still be the one that was looked at:
+/// another is left there, with the error `AlreadyExists`. The old one is afterwards where the new one
+/// was, or aside.
 pub fn swap(new: &Path, place: &Path, aside: &Path, old: Identity) -> Result<()> {
     match renameat_with(CWD, new, CWD, place, RenameFlags::EXCHANGE) {
         Ok(()) if Identity::at(new)? != old => {
             renameat_with(CWD, new, CWD, place, RenameFlags::EXCHANGE)?;
-            return Err(Error::other("something else was put there in the meantime"));
+            return Err(ErrorKind::AlreadyExists.into());
         }
         Err(error) if is_unknown(error) => in_two_steps(new, place, aside, old)?,
         done => done?,
@@ -59,7 +60,7 @@ fn in_two_steps(new: &Path, place: &Path, aside: &Path, old: Identity) -> Result
     fs::rename(place, aside)?;
     let placed = match Identity::at(aside)? == old {
         true => fs::rename(new, place),
-        false => Err(Error::other("something else was put there in the meantime")),
+        false => Err(ErrorKind::AlreadyExists.into()),
     };
     placed.inspect_err(|_| {
         // The error that is told is the first one; the next run tries this again.

@@ -20,7 +20,10 @@ impl Folder {
 
     /// Writes one file of the folder.
     pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<()> {
-        fs::write(self.making.join(name), content).map_err(|error| {
+        let path = self.making.join(name);
+        fs::write(&path, content).map_err(|error| {
+            // Half a file is none, should the run go on without it.
+            let _ = fs::remove_file(&path);
             Problem::from_error("cannot be written", error).in_file(&self.place.join(name))
         })
     }

@@ -1,16 +1,17 @@
 //! The files of a results folder and the SHA-256 of each, as its summary lists them under
 //! `provenance.files`: what is ours, what was edited, and what is a user's.
 //!
-//! The summary lists itself too, as it is without that list.
+//! The summary lists itself too, as it is without that list. It may be larger than anything else
+//! here, so that it is cut as the text that we wrote rather than taken apart.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{Read, Result, Write};
+use std::io::{Error, Read, Result, Write};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use serde_json::{Value, json};
+use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use super::exchange::flush;
@@ -37,6 +38,10 @@ const WRITTEN_TOGETHER: Duration = Duration::from_secs(60);
 
 /// Bytes that are hashed at a time.
 const PIECE: usize = 1 << 16;
+
+/// What stands before the list of files in a summary, and what ends the summary after it.
+const LIST: &str = ",\n    \"files\": ";
+const END: &str = "\n  }\n}\n";
 
 /// Whose an entry of a results folder is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -65,14 +70,12 @@ impl Manifest {
         let path = folder.join(SUMMARY);
         let written = modified(&path);
         let text = fs::read_to_string(path).unwrap_or_default();
-        let Ok(mut summary) = serde_json::from_str::<Value>(&text) else {
-            return Self { sums: None, summary: None, written };
-        };
-        let files = summary["provenance"].as_object_mut().and_then(|all| all.shift_remove("files"));
-        Self {
-            sums: files.and_then(|files| serde_json::from_value(files).ok()),
-            summary: Some(sum_of_text(&pretty(&summary))),
-            written,
+        match unsealed(&text) {
+            Some((summary, sums)) => {
+                Self { sums: Some(sums), summary: Some(sum_of_text(&summary)), written }
+            }
+            // Whoever wrote it anew has edited it, whatever it says.
+            None => Self { sums: listed(&text), summary: None, written },
         }
     }
 
@@ -103,8 +106,8 @@ impl Manifest {
 /// Flushes the files of a folder and lists them in its summary; nothing is written to it after that.
 pub fn seal(folder: &Path) -> Result<()> {
     let path = folder.join(SUMMARY);
-    let mut summary: Value = serde_json::from_str(&fs::read_to_string(&path)?)?;
-    let mut sums = BTreeMap::from([(SUMMARY.to_owned(), sum_of_text(&pretty(&summary)))]);
+    let summary = fs::read_to_string(&path)?;
+    let mut sums = BTreeMap::from([(SUMMARY.to_owned(), sum_of_text(&summary))]);
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -113,9 +116,8 @@ pub fn seal(folder: &Path) -> Result<()> {
             sums.insert(name, sum_of(&path)?);
         }
     }
-    summary["provenance"]["files"] = json!(sums);
     let mut file = File::create(path)?;
-    file.write_all(pretty(&summary).as_bytes())?;
+    file.write_all(sealed(&summary, &sums)?.as_bytes())?;
     file.sync_all()?;
     flush(folder)
 }
@@ -129,8 +131,33 @@ fn modified(path: &Path) -> Option<SystemTime> {
     fs::metadata(path).and_then(|found| found.modified()).ok()
 }
 
-fn pretty(summary: &Value) -> String {
-    format!("{summary:#}\n")
+/// A summary, which ends with its provenance, with a list of files at the end of that.
+fn sealed(summary: &str, sums: &BTreeMap<String, String>) -> Result<String> {
+    let body = summary.strip_suffix(END).ok_or_else(|| {
+        Error::other("the summary does not end with its provenance, where its files are listed")
+    })?;
+    let sums = serde_json::to_string_pretty(sums)?.replace('\n', "\n    ");
+    Ok(format!("{body}{LIST}{sums}{END}"))
+}
+
+/// The summary without its list of files, and the list.
+fn unsealed(summary: &str) -> Option<(String, BTreeMap<String, String>)> {
+    let (body, list) = summary.rsplit_once(LIST)?;
+    let sums = serde_json::from_str(list.strip_suffix(END)?).ok()?;
+    Some((format!("{body}{END}"), sums))
+}
+
+/// The list of files in a summary however it is laid out.
+fn listed(summary: &str) -> Option<BTreeMap<String, String>> {
+    #[derive(Deserialize)]
+    struct Summary {
+        provenance: Provenance,
+    }
+    #[derive(Deserialize)]
+    struct Provenance {
+        files: Option<BTreeMap<String, String>>,
+    }
+    serde_json::from_str::<Summary>(summary).ok()?.provenance.files
 }
 
 fn sum_of(path: &Path) -> Result<String> {
@@ -150,4 +177,23 @@ fn sum_of_text(content: &str) -> String {
 
 fn text(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sealed_summary_is_json_and_gives_back_its_text_and_its_list() {
+        let summary = "{\n  \"a\": 0.1,\n  \"provenance\": {\n    \"seed\": 1\n  }\n}\n";
+        let sums = BTreeMap::from([("a".to_owned(), "1".to_owned()), ("b".into(), "2".into())]);
+        let sealed = sealed(summary, &sums).unwrap();
+        let parsed: serde_json::Value = serde_json::from_str(&sealed).unwrap();
+        assert_eq!(format!("{parsed:#}\n"), sealed);
+        assert_eq!(parsed["provenance"]["files"]["b"], "2");
+        assert_eq!(unsealed(&sealed), Some((summary.to_owned(), sums.clone())));
+        assert_eq!(listed(&parsed.to_string()), Some(sums));
+        assert_eq!(unsealed(summary), None);
+        assert!(super::sealed("{}", &BTreeMap::new()).is_err());
+    }
 }
