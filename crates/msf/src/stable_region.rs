@@ -126,7 +126,7 @@ impl StableRegion {
         let mut intervals = Vec::new();
         for a in &self.intervals {
             for b in &other.intervals {
-                let from = if a.lower() >= b.lower() { a.from } else { b.from };
+                let from = higher(a.from, b.from);
                 let beyond = |i: &Interval| i.upper().unwrap_or(f64::INFINITY);
                 let to = if beyond(a) <= beyond(b) { a.to } else { b.to };
                 if from.sigma() < to.sigma() {
@@ -135,6 +135,17 @@ impl StableRegion {
             }
         }
         Self { intervals }
+    }
+}
+
+/// The higher of two lower ends; σ = 0 is included only in both.
+fn higher(a: End, b: End) -> End {
+    match (a, b) {
+        (End::Origin { included }, End::Origin { included: as_well }) => {
+            End::Origin { included: included && as_well }
+        }
+        _ if a.sigma() >= b.sigma() => a,
+        _ => b,
     }
 }
 

@@ -32,14 +32,6 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
         );
         warnings.add("network.isolated_nodes", message);
     }
-    let components = plan.n_components;
-    if components > 1 {
-        let message = format!(
-            "the network has {components} components, so {components} modes have eigenvalue 0 and \
-             no coupling synchronises it globally"
-        );
-        warnings.add("network.components", message);
-    }
 }
 
 /// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.

@@ -134,6 +134,7 @@ fn msf(findings: &Findings) -> LinePanel {
         lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),
         standard_error: msf.lambda.iter().map(|lambda| lambda.standard_error).collect(),
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
+        zeros: msf.stable.zeros().map(|zero| zero.sigma).collect(),
     })
 }
 

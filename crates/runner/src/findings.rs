@@ -12,9 +12,12 @@ use spectra::Spectrum;
 use crate::agreement::{self, Agreement};
 use crate::check;
 use crate::plan::{Plan, Sweep};
+use crate::prediction::Known;
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::Simulated;
+use crate::stability;
+use crate::synchrony::{Evidence, Synchrony};
 use crate::warning::{Warning, Warnings};
 
 /// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
@@ -29,6 +32,8 @@ pub struct Findings {
     pub spectrum: Spectrum,
     pub msf: MasterStability,
     pub critical: Vec<CriticalCoupling>,
+    /// Whether, and where, all nodes synchronise.
+    pub synchrony: Synchrony,
     /// Predicted states, from large ε down; neighbours differ in their clusters.
     pub cascade: Vec<State>,
     /// Of each of these states.
@@ -74,20 +79,28 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     };
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
+    plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
     let msf = curves.of(plan, stages)?;
-    let stable = msf.stable.clone();
-    let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
+    stability::warn(plan, &msf, &mut warnings);
+    let stable = &msf.stable;
+    let n_nodes = plan.network.n_nodes();
+    let request = plan.spectrum.request(stable, n_nodes);
     let spectrum = stages
         .told("spectrum", |tell| {
             spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
         })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
-    let critical = msf::critical_couplings(&stable, &spectrum.eigenvalues, spectrum.tolerance);
+    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
+    let fastest = fastest(plan, &spectrum, &mut warnings);
+    let known = Known { spectrum: &spectrum, fastest };
+    if let Some(top) = known.top(stable) {
+        warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
+    }
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
         .measured("clusters", n_states, |progress| {
-            let mut states = clustering::cascade_reported(&spectrum, &stable, plan.rule, progress)?;
+            let mut states = known.states(stable, plan.rule, progress)?;
             let matrix = plan.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, plan.rule, EQUITABLE)?;
             Ok(states)
@@ -102,6 +115,14 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
             .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
         None => Vec::new(),
     };
+    let synchrony = Synchrony::of(&Evidence {
+        known,
+        stable,
+        critical: &critical,
+        states: &states,
+        n_components: plan.n_components,
+        looked_to: msf.sigma[msf.sigma.len() - 1],
+    });
     let cascade = merge_equal_clusters(&states);
     let labels = labels(plan, &spectrum, &cascade, &states, stages)
         .map_err(|error| failed("the clusters cannot be labelled", &error))?;
@@ -109,7 +130,43 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
-    Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement, warnings })
+    Ok(Findings {
+        cascade,
+        labels,
+        trees,
+        spectrum,
+        msf,
+        critical,
+        synchrony,
+        simulated,
+        agreement,
+        warnings,
+    })
+}
+
+/// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
+fn fastest(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) -> Option<f64> {
+    if spectrum.eigenvalues.len() == plan.network.n_nodes() {
+        return spectrum.eigenvalues.last().copied();
+    }
+    match spectra::smallest_eigenvalue(&plan.matrix) {
+        Ok(lambda) => Some(lambda),
+        Err(error) => {
+            warnings.add("global_synchrony", format!("λ_N is not known: {error}"));
+            None
+        }
+    }
+}
+
+/// What is not predicted from a part of the modes, and what would be needed for it.
+fn beyond(plan: &Plan, computed: usize, top: f64) -> String {
+    format!(
+        "the stable set has an upper end, and {computed} of {} modes were computed: above epsilon = {} \
+         the fastest modes may be unstable, and nothing is predicted there. `spectrum.modes = \"all\"` \
+         decides it",
+        plan.network.n_nodes(),
+        plain(top)
+    )
 }
 
 fn advanced(advance: spectra::Advance) -> String {

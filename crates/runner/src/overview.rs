@@ -8,12 +8,13 @@ use std::fmt::Write;
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use msf::{End, Interval, MasterStability};
+use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
+use crate::stability::with_error;
 use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
@@ -30,7 +31,9 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("network", network(plan));
     line("modes", modes(findings));
     line("lambda", lambda(findings));
+    line("isolated", isolated(findings));
     line("stable for", stable(findings));
+    line("verdict", findings.synchrony.verdict.clone());
     line("", String::new());
     text.push_str(&cascade(plan, findings));
     text.push_str(&exactness::of(plan, findings));
@@ -79,6 +82,17 @@ fn lambda(findings: &Findings) -> String {
     abridged(values.map(|&value| four_digits(value)))
 }
 
+/// Λ(0) and what it says.
+fn isolated(findings: &Findings) -> String {
+    let isolated = findings.msf.isolated;
+    let says = match findings.msf.state {
+        Isolated::Chaotic => "chaotic",
+        Isolated::Periodic => "periodic, 0 within its errors",
+        Isolated::AtRest => "at rest, nodes become equal without coupling",
+    };
+    format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
+}
+
 fn stable(findings: &Findings) -> String {
     let MasterStability { stable, sigma, .. } = &findings.msf;
     let looked = format!(
@@ -103,8 +117,9 @@ fn interval(Interval { from, to }: &Interval) -> String {
 
 fn end(end: &End) -> String {
     match end {
+        End::Zero(zero) if zero.refined => with_error(zero.sigma, zero.standard_error),
         End::Zero(zero) => {
-            format!("{} ± {}", four_digits(zero.sigma), two_digits(zero.standard_error))
+            format!("{} (not as good as asked)", with_error(zero.sigma, zero.standard_error))
         }
         End::Origin { .. } => "0".into(),
         End::Looked { sigma } => format!("{} (the end of the look)", four_digits(*sigma)),
@@ -132,17 +147,21 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
         let computed = findings.spectrum.eigenvalues.len();
+        let n_nodes = plan.network.n_nodes();
         let why = match findings.spectrum.cutoff {
-            Some(_) => "down to which unstable modes were asked for".to_owned(),
-            None => format!("where mode {computed} becomes unstable, the last one computed"),
+            _ if computed == n_nodes => {
+                "below which a mode comes to a sigma that was not looked at".to_owned()
+            }
+            Some(_) => {
+                format!("down to which unstable modes of {} were asked for", grouped(n_nodes))
+            }
+            None => format!(
+                "where mode {computed} of {} becomes unstable, the last one computed",
+                grouped(n_nodes)
+            ),
         };
-        writeln!(
-            text,
-            "The states end at epsilon = {}, {why}, of {}.",
-            four_digits(last.epsilon.0),
-            grouped(plan.network.n_nodes())
-        )
-        .expect("a string takes every line");
+        writeln!(text, "The states end at epsilon = {}, {why}.", four_digits(last.epsilon.0))
+            .expect("a string takes every line");
     }
     text
 }

@@ -9,6 +9,7 @@ mod numbers;
 mod ranges;
 mod source;
 mod spectrum;
+mod step;
 
 use std::path::{Path, PathBuf};
 
@@ -30,6 +31,7 @@ use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
     Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
+use crate::warning::Warning;
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
@@ -62,6 +64,8 @@ pub struct Plan {
     pub msf: msf::Request,
     pub rule: ClusterRule,
     pub sweep: Option<Sweep>,
+    /// What is doubtful about it, though it can be done.
+    pub doubts: Vec<Warning>,
     /// The stages of the run, that of reading the network already taken.
     pub stages: Stages,
 }
@@ -158,11 +162,11 @@ fn of(
     });
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
-    let plan = Plan {
+    let mut plan = Plan {
         spectrum: checker.spectrum(network.n_nodes())?,
-        msf: checker.msf(node.coupling)?,
+        msf: checker.msf()?,
         rule: checker.rule(network.n_nodes())?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
         kept: None,
@@ -174,8 +178,10 @@ fn of(
         node,
         experiment: experiment.clone(),
         written: written.clone(),
+        doubts: Vec::new(),
         stages: Stages::default(),
     };
+    plan.doubts = checker.steps(&plan)?;
     checker.regions(&plan.network)?;
     checker.figure(&plan.network, &plan.spectrum)?;
     checker.claims(&plan)?;
@@ -247,7 +253,7 @@ impl Checker<'_> {
         })
     }
 
-    fn msf(&self, coupling: Coupling) -> Result<msf::Request> {
+    fn msf(&self) -> Result<msf::Request> {
         let spec = &self.experiment.msf;
         let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
         self.not_negative("msf.sigma", sigma[0])?;
@@ -264,8 +270,6 @@ impl Checker<'_> {
             average: spec.average / self.shortened,
             renormalise: spec.renormalise,
         };
-        let largest = sigma[sigma.len() - 1];
-        self.stable_rk4("msf", "`msf.sigma`", largest, (coupling, spec.step))?;
         let exponents = sigma.len() as f64;
         self.feasible("msf", exponents * (times.transient + times.average) / times.step)?;
         self.msf_ranges()?;
@@ -273,7 +277,8 @@ impl Checker<'_> {
             sigma,
             times,
             refinement: msf::Refinement {
-                relative_error: spec.relative_error,
+                // Shorter averages are for a first look, with larger errors.
+                relative_error: spec.relative_error * self.shortened.sqrt(),
                 ..msf::Refinement::default()
             },
             seed: self.experiment.seed,
@@ -292,23 +297,11 @@ impl Checker<'_> {
         }
     }
 
-    fn sweep(
-        &self,
-        spec: &SweepSpec,
-        network: &Network,
-        matrix: &CouplingMatrix,
-        node: msf::Node,
-    ) -> Result<Sweep> {
+    fn sweep(&self, spec: &SweepSpec, network: &Network, node: msf::Node) -> Result<Sweep> {
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
         let schedule = self.schedule(spec, epsilon[0])?;
         let pairs = network.n_nodes() <= ALL_PAIRS;
         self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
-        let method = self.method(spec);
-        if method == Method::Rk4 {
-            let fastest = epsilon[epsilon.len() - 1] * largest_diagonal(matrix);
-            let what = "`sweep.epsilon` times the strength of the strongest node";
-            self.stable_rk4("sweep", what, fastest, (node.coupling, spec.step))?;
-        }
         let component = match &spec.component {
             Some(name) => self.component("sweep.component", name, node.model)?,
             None => 0,
@@ -327,7 +320,7 @@ impl Checker<'_> {
         Ok(Sweep {
             epsilon,
             seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
-            method,
+            method: self.method(spec),
             schedule,
             observables: Observables { component, pairs, reference, clusters },
             synchronised_below: spec.synchronised_below,
@@ -369,11 +362,6 @@ impl Checker<'_> {
             MethodKind::Dop853 => adaptive(AdaptiveOrder::Eight),
         }
     }
-}
-
-/// max_i |w_ii| ≤ |λ_N|: no mode is damped faster than ε|λ_N|, and one is at least this fast.
-fn largest_diagonal(matrix: &CouplingMatrix) -> f64 {
-    matrix.symmetric().diag_iter().flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 
 /// The part of the specification that says what the figure shows.

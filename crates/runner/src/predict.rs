@@ -15,7 +15,7 @@ use crate::place::{self, Place};
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result, nearest};
 use crate::progress::Stages;
-use crate::spec::{Format, MatrixKind};
+use crate::spec::{Format, MatrixKind, ModesSpec};
 use crate::{findings, load, overview, results};
 
 /// Points of the curve Λ(σ).
@@ -39,9 +39,11 @@ pub struct Args {
     /// Coupling matrix
     #[arg(long, value_enum, default_value_t = MatrixKind::Normalized)]
     matrix: MatrixKind,
-    /// Leading modes to compute; the cascade reaches down to where the last of them becomes unstable
-    #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
-    modes: u32,
+    /// Modes to compute: `all`, or how many leading ones; the cascade reaches down to where the last of
+    /// them becomes unstable. `auto` computes all where the stable set has an upper end and the network
+    /// has up to 5000 nodes, else 20
+    #[arg(long, value_name = "M", default_value = "auto", value_parser = modes)]
+    modes: ModesSpec,
     /// Instead of a number of modes: all that are unstable at this coupling strength, so that the
     /// cascade reaches down to it
     #[arg(long, value_name = "EPSILON", conflicts_with = "modes")]
@@ -105,10 +107,24 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
+/// A number of modes, or the word for one.
+fn modes(text: &str) -> std::result::Result<ModesSpec, String> {
+    match (text, text.parse::<u64>()) {
+        ("all", _) => Ok(ModesSpec::All),
+        ("auto", _) => Ok(ModesSpec::Auto),
+        (_, Ok(modes)) if modes > 0 => Ok(ModesSpec::Leading(modes)),
+        _ => Err("expected `all`, `auto` or a number above zero".into()),
+    }
+}
+
 fn spectrum(args: &Args) -> Value {
     let modes = match args.unstable_at {
         Some(epsilon) => table([("unstable_at", epsilon.into())]),
-        None => i64::from(args.modes).into(),
+        None => match args.modes {
+            ModesSpec::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
+            ModesSpec::All => "all".into(),
+            _ => "auto".into(),
+        },
     };
     let mut spectrum = toml::Table::from_iter([("modes".to_owned(), modes)]);
     spectrum.extend(args.tolerance.map(|tolerance| ("tolerance".to_owned(), tolerance.into())));

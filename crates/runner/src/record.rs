@@ -5,7 +5,7 @@ mod states;
 
 use std::time::Duration;
 
-use msf::{End, Zero};
+use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -17,6 +17,8 @@ use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::{OverSeeds, completed};
 use crate::spec::StepSpec;
+use crate::stability::word;
+use crate::synchrony::Synchrony;
 use crate::warning::Warning;
 
 pub use states::StateRecord;
@@ -44,6 +46,8 @@ pub struct Summary {
     pub spectrum: SpectrumRecord,
     pub msf: MsfRecord,
     pub critical_couplings: Vec<CriticalRecord>,
+    /// Whether, and where, all nodes synchronise.
+    pub global_synchrony: Synchrony,
     pub cascade: Vec<StateRecord>,
     pub simulations: Vec<SimulationRecord>,
     pub claims: Vec<Claim>,
@@ -109,6 +113,10 @@ pub struct VerifiedRecord {
 pub struct MsfRecord {
     pub lyapunov_isolated: f64,
     pub lyapunov_isolated_standard_error: f64,
+    /// What that says: `chaotic`, `periodic` or `at rest`.
+    pub isolated_state: &'static str,
+    /// The σ between which was looked; Λ(0) is known besides.
+    pub looked: [f64; 2],
     /// Stable intervals of σ, [from, to]; no upper end where the look ends stable.
     pub stable: Vec<(f64, Option<f64>)>,
     /// What the ends of these intervals are.
@@ -118,6 +126,22 @@ pub struct MsfRecord {
     pub confidence_interval: Option<[f64; 2]>,
     /// Every zero of Λ, with its standard error.
     pub zeros: Vec<ZeroRecord>,
+    /// Each attractor, where orbits settle on several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub attractors: Vec<AttractorRecord>,
+}
+
+/// An attractor of several.
+#[derive(Serialize)]
+pub struct AttractorRecord {
+    /// Orbits that settled on it, of how many.
+    pub orbits: [usize; 2],
+    /// σ at which it was told from the others, and Λ there.
+    pub told_at: f64,
+    pub lambda: f64,
+    pub lambda_standard_error: f64,
+    pub isolated_state: &'static str,
+    pub stable_ends: Vec<[EndRecord; 2]>,
 }
 
 /// An end of a stable interval.
@@ -262,6 +286,7 @@ pub fn summarise(
         },
         msf: msf_record(findings),
         critical_couplings: critical_records(findings),
+        global_synchrony: findings.synchrony.clone(),
         cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
         claims,
@@ -302,12 +327,30 @@ fn msf_record(findings: &Findings) -> MsfRecord {
     MsfRecord {
         lyapunov_isolated: msf.isolated.mean,
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
+        isolated_state: word(msf.state),
+        looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
-        stable_ends: msf.stable.intervals.iter().map(|i| [i.from, i.to].map(Into::into)).collect(),
+        stable_ends: ends(&msf.stable),
+        attractors: msf.attractors.iter().map(attractor_record).collect(),
         sigma_c: sigma_c.map(|zero| zero.sigma),
         standard_error: sigma_c.map(|zero| zero.standard_error),
         confidence_interval: sigma_c.map(|zero| zero.confidence_interval()),
         zeros: msf.stable.zeros().map(zero_record).collect(),
+    }
+}
+
+fn ends(stable: &StableRegion) -> Vec<[EndRecord; 2]> {
+    stable.intervals.iter().map(|i| [i.from, i.to].map(Into::into)).collect()
+}
+
+fn attractor_record(attractor: &Attractor) -> AttractorRecord {
+    AttractorRecord {
+        orbits: [attractor.orbits, attractor.of],
+        told_at: attractor.told_at,
+        lambda: attractor.lambda.mean,
+        lambda_standard_error: attractor.lambda.standard_error,
+        isolated_state: word(attractor.state),
+        stable_ends: ends(&attractor.stable),
     }
 }
 

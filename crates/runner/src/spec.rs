@@ -77,7 +77,8 @@ pub enum MatrixKind {
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrumSpec {
-    pub modes: ModesSpec,
+    /// By default all of a network that is small enough, else `"auto"`.
+    pub modes: Option<ModesSpec>,
     pub solver: SolverKind,
     /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
     pub tolerance: Option<f64>,

@@ -38,6 +38,7 @@ mod request;
 mod ritz;
 mod separator;
 mod slow_modes;
+mod smallest;
 mod spectrum;
 mod subspace;
 mod verification;
@@ -46,6 +47,7 @@ mod wanted;
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
+pub use smallest::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 

@@ -15,9 +15,11 @@ pub fn of(plan: &Plan) -> Value {
             table[key] = value;
         }
     };
+    set("/spectrum/modes", json!(plan.spectrum.wanted()));
     set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
     set("/msf/transient", json!(plan.msf.times.transient));
     set("/msf/average", json!(plan.msf.times.average));
+    set("/msf/relative_error", json!(plan.msf.refinement.relative_error));
     set("/msf/refinement_rounds", json!(plan.msf.refinement.max_rounds));
     if let Some(sweep) = &plan.sweep {
         set("/sweep/transient", json!(sweep.schedule.transient));

@@ -87,12 +87,13 @@ impl Grid {
     }
 }
 
-/// `"all"`, a number of leading modes, or `{ unstable_at = … }`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// `"auto"`, `"all"`, a number of leading modes, or `{ unstable_at = … }`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ModesSpec {
+    /// All N where the stable set has an upper end, leading ones where it has none.
+    Auto,
     /// All N.
-    #[default]
     All,
     /// All that are unstable at this ε, or above.
     UnstableAt(f64),
@@ -176,10 +177,11 @@ impl<'de> Deserialize<'de> for ModesSpec {
         impl<'de> Visitor<'de> for Which {
             type Value = ModesSpec;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"all\", a whole number or { unstable_at = … }")
+                f.write_str("\"auto\", \"all\", a whole number or { unstable_at = … }")
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<ModesSpec, E> {
                 match word {
+                    "auto" => Ok(ModesSpec::Auto),
                     "all" => Ok(ModesSpec::All),
                     _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
                 }

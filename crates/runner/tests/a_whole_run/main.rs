@@ -9,6 +9,7 @@ mod odd_networks;
 mod place;
 mod predict;
 mod results;
+mod stability;
 #[path = "../support/mod.rs"]
 mod support;
 mod trouble;
