@@ -64,12 +64,13 @@ impl Memory {
             hint: "take a smaller network, or a part of it by `prepare`",
         }];
         let modes = plan.spectrum.most_modes(plan.network.n_nodes()) as f64;
+        let is_dense = plan.spectrum.is_dense(plan.network.n_nodes());
         let dense = DENSE_MATRICES * n * n;
         let leading = (VECTORS_A_MODE * n * modes).min(dense);
         parts.push(Part {
             name: "spectrum",
             key: "spectrum.modes",
-            bytes: NUMBER * if modes > 0.5 * n { dense } else { leading },
+            bytes: NUMBER * if is_dense { dense } else { leading },
             hint: "set `spectrum.modes` to the number of leading modes you need",
         });
         parts.extend(plan.sweep.iter().map(|sweep| of_sweep(sweep, n)));
