@@ -185,7 +185,7 @@ fn of(
     checker.regions(&plan.network)?;
     checker.figure(&plan.network, &plan.spectrum)?;
     checker.claims(&plan)?;
-    Memory::of(&plan).affordable().map_err(|problem| problem.in_file(file))?;
+    Memory::of(&plan).affordable(file)?;
     Ok(Plan { stages, ..plan })
 }
 
