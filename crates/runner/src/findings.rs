@@ -13,7 +13,7 @@ use crate::check;
 use crate::plan::{Plan, Sweep};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
-use crate::simulated::Simulated;
+use crate::simulated::{Seen, Simulated};
 use crate::warning::{Warning, Warnings};
 
 /// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
@@ -195,13 +195,62 @@ impl Findings {
         self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &state.clusters)
     }
 
-    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.
+    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never are
+    /// or never cease to be.
     pub fn predicted_loss(&self, cluster: &[usize]) -> Option<f64> {
-        let together = |state: &State| {
-            let of = state.clusters.cluster_of();
-            cluster.iter().all(|&node| of[node] == of[cluster[0]])
-        };
-        let lost = self.cascade.iter().find(|state| !together(state))?;
-        Some(lost.epsilon.1.unwrap_or(f64::INFINITY))
+        let is_together = |state: &&State| together(state, cluster);
+        let lost = self
+            .cascade
+            .iter()
+            .skip_while(|state| !is_together(state))
+            .find(|s| !is_together(s))?;
+        lost.epsilon.1
     }
+
+    /// Where these clusters were seen in the sweep: looked for at the strongest couplings at which
+    /// they are predicted and of which the sweep has a point, or anywhere if there are none. None
+    /// without a sweep.
+    pub fn seen(&self, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let simulated = self.simulated.as_ref()?;
+        let holds = |state: &State| clusters.iter().all(|cluster| together(state, cluster));
+        let runs = self.cascade.chunk_by(|a, b| holds(a) == holds(b));
+        let ranges = runs.filter(|run| holds(&run[0])).map(range_of);
+        let has_point = |range: &(f64, Option<f64>)| {
+            simulated
+                .epsilon
+                .iter()
+                .any(|&epsilon| epsilon > range.0 && range.1.is_none_or(|to| epsilon <= to))
+        };
+        Some(simulated.seen(clusters, ranges.into_iter().find(has_point)))
+    }
+
+    /// How many runs of the sweep lie in the range of a state, and how many of these escaped; none
+    /// without a sweep.
+    pub fn runs_in(&self, state: &State) -> Option<[usize; 2]> {
+        let simulated = self.simulated.as_ref()?;
+        let inside = |at: &usize| state.holds_at(simulated.epsilon[*at]);
+        let positions: Vec<usize> = (0..simulated.epsilon.len()).filter(inside).collect();
+        let escaped = positions.iter().map(|&at| simulated.escaped(at)).sum();
+        Some([positions.len() * simulated.seeds.len(), escaped])
+    }
+
+    /// Where the clusters of one predicted state were seen in the sweep: looked for in its range and
+    /// above, as far as the states there hold them too.
+    pub fn state_seen(&self, state: usize, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let holds = |state: &&State| clusters.iter().all(|cluster| together(state, cluster));
+        let above = self.cascade[..state].iter().rev().take_while(holds).count();
+        let range = range_of(&self.cascade[state - above..=state]);
+        Some(self.simulated.as_ref()?.seen(clusters, Some(range)))
+    }
+}
+
+/// Whether a state has these nodes in one cluster.
+fn together(state: &State, cluster: &[usize]) -> bool {
+    let of = state.clusters.cluster_of();
+    cluster.iter().all(|&node| of[node] == of[cluster[0]])
+}
+
+/// The range of ε of neighbouring states, from strong coupling down.
+fn range_of(states: &[State]) -> (f64, Option<f64>) {
+    (states[states.len() - 1].epsilon.0, states[0].epsilon.1)
 }

@@ -142,14 +142,6 @@ pub enum FigureError {
         /// Values given.
         n_values: usize,
     },
-    /// A matrix without a single finite value.
-    #[error("panel {panel}: none of the {n_values} values of the matrix is finite")]
-    NoFiniteValue {
-        /// Letter of the panel.
-        panel: String,
-        /// Values given.
-        n_values: usize,
-    },
     /// A group that is empty or reaches beyond the nodes.
     #[error("panel {panel}: a group covers nodes {from} to {to} (past the end) of {n_nodes}")]
     BadGroup {

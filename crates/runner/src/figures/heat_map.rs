@@ -11,7 +11,9 @@ use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::groups::{self, Group};
 use super::label::Label;
-use super::style::{AXIS_WIDTH, HEADER, INK, LABEL_SIZE, NOTE_SIZE, Stroke, TICK_SIZE};
+use super::style::{
+    AXIS_WIDTH, HEADER, INK, LABEL_SIZE, NOTE_SIZE, Stroke, TICK_SIZE, UNCLUSTERED,
+};
 
 /// A dot of a PNG at 300 dots per inch, in points.
 const DOT: f64 = 0.24;
@@ -45,6 +47,8 @@ pub struct HeatMapPanel {
     pub range: Option<[f64; 2]>,
     /// Stands above the colour bar, such as δe_ij.
     pub bar_label: Label,
+    /// Stands in a matrix without a single finite value, such as "all runs escaped".
+    pub without_values: Label,
     /// Groups of nodes. Their names stand along both axes where there is room; node numbers do
     /// where no group has a name.
     pub groups: Vec<Group>,
@@ -66,14 +70,20 @@ impl HeatMapPanel {
     ) -> Result<(), FigureError> {
         self.check(panel)?;
         let range = self.value_range(panel)?;
-        let Places { matrix, bar } = self.places(cell, range, panel)?;
+        let Places { matrix, bar } = self.places(cell, range.unwrap_or([0.0, 1.0]), panel)?;
         self.draw_matrix(canvas, matrix, range)?;
         self.draw_axes(canvas, matrix);
-        self.draw_bar(canvas, bar, range)?;
         let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
         let middle = (matrix.left + matrix.right) / 2.0;
         canvas.label(&self.title, [middle, baseline], NOTE_SIZE, Anchor::Middle);
-        canvas.label(&self.bar_label, [bar.left, baseline], LABEL_SIZE, Anchor::Start);
+        // What has no values needs no colours to read them by.
+        if let Some(range) = range {
+            self.draw_bar(canvas, bar, range)?;
+            canvas.label(&self.bar_label, [bar.left, baseline], LABEL_SIZE, Anchor::Start);
+        } else {
+            let at = [middle, (matrix.top + matrix.bottom) / 2.0];
+            canvas.label(&self.without_values, at, NOTE_SIZE, Anchor::Middle);
+        }
         Ok(())
     }
 
@@ -88,15 +98,17 @@ impl HeatMapPanel {
         groups::check(&self.groups, n_nodes, panel)
     }
 
-    /// Values at the ends of the colours. Values that are all the same have the darkest one.
-    fn value_range(&self, panel: &str) -> Result<[f64; 2], FigureError> {
+    /// Values at the ends of the colours, none where no value is finite. Values that are all the
+    /// same have the darkest colour.
+    fn value_range(&self, panel: &str) -> Result<Option<[f64; 2]>, FigureError> {
         let values = self.values.iter().copied();
-        let n_values = self.values.len();
-        let none = || FigureError::NoFiniteValue { panel: panel.into(), n_values };
         let least = values.clone().filter(|v| v.is_finite()).fold(f64::INFINITY, f64::min);
-        let [from, to] =
-            axis::range(values, self.range, Scale::Linear, 0.0, panel)?.ok_or_else(none)?;
-        Ok(if self.range.is_none() { [from.max(least), to] } else { [from, to] })
+        if least == f64::INFINITY {
+            return Ok(None);
+        }
+        let range = axis::range(values, self.range, Scale::Linear, 0.0, panel)?;
+        let from = |from: f64| if self.range.is_none() { from.max(least) } else { from };
+        Ok(range.map(|[low, to]| [from(low), to]))
     }
 
     /// A square matrix, and a bar as high as it at its right.
@@ -135,8 +147,13 @@ impl HeatMapPanel {
         &self,
         canvas: &mut Canvas,
         matrix: Rect,
-        range: [f64; 2],
+        range: Option<[f64; 2]>,
     ) -> Result<(), FigureError> {
+        let Some(range) = range else {
+            canvas.rect(matrix, UNCLUSTERED);
+            canvas.frame(matrix, Stroke::solid(INK, AXIS_WIDTH));
+            return Ok(());
+        };
         let dots = matrix.width() / DOT;
         // Cells finer than half a dot are drawn by their means: nobody could tell them apart.
         let by = (self.n_nodes as f64 / (2.0 * dots)).ceil().max(1.0) as usize;
@@ -337,9 +354,9 @@ mod tests {
     #[test]
     fn the_range_asked_for_holds_whatever_the_values() {
         let mut panel = distances(4);
-        assert_eq!(panel.value_range("(b1)").unwrap(), [0.0, 3.0]);
+        assert_eq!(panel.value_range("(b1)").unwrap(), Some([0.0, 3.0]));
         panel.range = Some([-1.0, 0.5]);
-        assert_eq!(panel.value_range("(b1)").unwrap(), [-1.0, 0.5]);
+        assert_eq!(panel.value_range("(b1)").unwrap(), Some([-1.0, 0.5]));
         assert!(svg_of(&panel).is_ok());
         panel.range = Some([1.0, 1.0]);
         assert!(matches!(svg_of(&panel), Err(FigureError::BadRange { .. })));
@@ -350,7 +367,7 @@ mod tests {
         for value in [0.0, 7.0, -2.0] {
             let mut panel = distances(5);
             panel.values.fill(value);
-            assert_eq!(panel.value_range("(b1)").unwrap()[0], value);
+            assert_eq!(panel.value_range("(b1)").unwrap().unwrap()[0], value);
             assert_eq!(rendered(&panel, &[(2, 2)]).0, rendered(&distances(5), &[(2, 2)]).0);
         }
     }
@@ -370,15 +387,21 @@ mod tests {
     }
 
     #[test]
+    fn a_matrix_without_values_says_why_and_has_no_colours() {
+        let mut panel = distances(3);
+        panel.values.fill(f64::NAN);
+        panel.without_values = Label::text("all runs escaped");
+        let svg = svg_of(&panel).unwrap();
+        assert!(svg.contains(">all runs escaped<") && !svg.contains("<image"), "{svg}");
+    }
+
+    #[test]
     fn matrices_that_cannot_be_drawn_are_refused() {
         let refused = |panel: HeatMapPanel| svg_of(&panel).unwrap_err().to_string();
         assert_eq!(refused(HeatMapPanel::default()), "panel (b1) has no nodes");
         let mut panel = distances(3);
         panel.values.pop();
         assert_eq!(refused(panel), "panel (b1): 8 values make no matrix of 3 × 3");
-        let mut panel = distances(3);
-        panel.values.fill(f64::NAN);
-        assert_eq!(refused(panel), "panel (b1): none of the 9 values of the matrix is finite");
         let panel = HeatMapPanel { groups: vec![group("a", 1..4)], ..distances(3) };
         assert!(matches!(svg_of(&panel), Err(FigureError::BadGroup { from: 1, to: 4, .. })));
     }
