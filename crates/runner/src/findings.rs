@@ -3,17 +3,19 @@
 use clustering::{
     CascadeTree, ClusteringError, Partition, State, StateLabels, merge_equal_clusters,
 };
-use dynamics::DynamicsError;
+use dynamics::{DynamicsError, Replica, Run, Schedule};
 use msf::{CriticalCoupling, MasterStability};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
 use crate::agreement::{self, Agreement};
 use crate::check;
+use crate::doubts;
 use crate::plan::{Plan, Sweep};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::{Seen, Simulated};
+use crate::step_effect::{Probe, StepEffect};
 use crate::warning::{Warning, Warnings};
 
 /// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
@@ -35,6 +37,8 @@ pub struct Findings {
     /// The same states as trees, labelled: one for each run of states in which clusters only split.
     pub trees: Vec<CascadeTree>,
     pub simulated: Option<Simulated>,
+    /// What the step of the integrator does to the errors of the sweep, at some of its couplings.
+    pub step_effects: Vec<StepEffect>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
     /// What must be known beside these numbers, in the order in which it came up.
@@ -74,6 +78,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
     let msf = curves.of(plan, stages)?;
+    doubts::warn_of_short_times(plan, &mut warnings);
     let stable = msf.stable_region();
     let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
     let spectrum = stages
@@ -93,6 +98,12 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         Some(sweep) => Some(simulate(plan, sweep, stages)?),
         None => None,
     };
+    let mut step_effects = Vec::new();
+    if let (Some(sweep), Some(simulated)) = (&plan.sweep, &simulated) {
+        doubts::warn_of_runs(&msf, simulated, &mut warnings);
+        step_effects = effects_of_step(plan, sweep, simulated, stages)?;
+        step_effects.iter().for_each(|effect| effect.warn(&mut warnings));
+    }
     let agreement = match &simulated {
         Some(simulated) => stages
             .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
@@ -105,7 +116,18 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
-    Ok(Findings { cascade, labels, trees, spectrum, msf, critical, simulated, agreement, warnings })
+    Ok(Findings {
+        cascade,
+        labels,
+        trees,
+        spectrum,
+        msf,
+        critical,
+        simulated,
+        step_effects,
+        agreement,
+        warnings,
+    })
 }
 
 fn advanced(advance: spectra::Advance) -> String {
@@ -171,22 +193,45 @@ fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
 }
 
 fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
+    let runs = runs(plan, sweep, sweep.schedule, &sweep.replicas(), ("sweep", stages))?;
+    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+}
+
+/// Some replicas at the step of the sweep and at half of it.
+fn effects_of_step(
+    plan: &Plan,
+    sweep: &Sweep,
+    simulated: &Simulated,
+    stages: &Stages,
+) -> Result<Vec<StepEffect>> {
+    let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
+    let at = |schedule| runs(plan, sweep, schedule, &probe.replicas, ("half step", stages));
+    let [at_step, at_half] = probe.schedules.map(at);
+    Ok(probe.effects(simulated, [&at_step?, &at_half?]))
+}
+
+/// Runs replicas of a sweep over times of its own or others, as one stage.
+fn runs(
+    plan: &Plan,
+    sweep: &Sweep,
+    schedule: Schedule,
+    replicas: &[Replica],
+    (stage, stages): (&str, &Stages),
+) -> Result<Vec<Run>> {
     let simulation = dynamics::Simulation {
         model: plan.node.model,
         coupling: plan.node.coupling,
         matrix: plan.matrix.matrix(),
         method: sweep.method,
-        schedule: sweep.schedule,
+        schedule,
         observables: sweep.observables.clone(),
         kick: sweep.kick,
         instruction_set: plan.msf.instruction_set,
     };
-    let runs = stages
-        .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))
-        .map_err(|error| {
-            Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
-        })?;
-    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+    let steps = replicas.len() as u64 * schedule.steps();
+    stages.measured(stage, steps, |progress| simulation.run(replicas, progress)).map_err(|error| {
+        Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
+    })
 }
 
 impl Findings {

@@ -11,6 +11,7 @@ mod check;
 mod claims;
 mod cli;
 mod compare;
+mod doubts;
 mod drawing;
 mod figures;
 mod findings;
@@ -26,6 +27,7 @@ mod record;
 mod results;
 mod simulated;
 mod spec;
+mod step_effect;
 mod table;
 mod warning;
 

@@ -15,6 +15,7 @@ use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::OverSeeds;
+use crate::step_effect::StepEffect;
 use crate::warning::Warning;
 
 pub use folder::{Folder, check_writable};
@@ -37,6 +38,8 @@ pub struct Summary {
     pub critical_couplings: Vec<CriticalRecord>,
     pub cascade: Vec<StateRecord>,
     pub simulations: Vec<SimulationRecord>,
+    /// What the step of the integrator does to their errors.
+    pub simulations_step_effect: Vec<StepEffect>,
     pub claims: Vec<Claim>,
     /// What must be known beside these numbers.
     pub warnings: Vec<Warning>,
@@ -220,6 +223,7 @@ pub fn summarise(
         critical_couplings: critical_records(findings),
         cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
+        simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
         provenance: Provenance::new(plan, &links_hash, took),

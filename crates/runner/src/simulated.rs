@@ -74,6 +74,11 @@ impl Simulated {
         }
     }
 
+    /// Number of nodes of the network.
+    pub fn n_nodes(&self) -> usize {
+        self.n_nodes
+    }
+
     /// Position of a coupling strength in the sweep.
     pub fn position(&self, epsilon: f64) -> Option<usize> {
         self.epsilon.iter().position(|&value| value == epsilon)
