@@ -2,8 +2,9 @@
 //! run twice over the same time, at the step of the sweep and at half of it.
 //!
 //! RK4 errs in proportion to h⁴, so that halving h takes away 15/16 of what the step does to a mean,
-//! and the difference of the two means is nearly all of it. Orbits of two steps part soon, and means
-//! over a finite time differ by chance; how much is told by the scatter of the seeds. The couplings are
+//! and the ratio of the two means tells nearly all of it. Orbits of two steps part soon, and means over a
+//! finite time differ by chance; how much is told by the scatter of the seeds, on a scale of logarithms,
+//! since errors near synchrony differ by decades from seed to seed. The couplings are
 //! the largest at which no run escaped, where RK4 is nearest to its limit of stability, and the largest
 //! of those at which nodes are not synchronised, where errors are small and bursts depend on everything.
 //!
@@ -56,10 +57,12 @@ pub struct StepEffect {
     pub escaped: [usize; 2],
     /// Runs in which all observed errors are below the bound of synchrony, at either step.
     pub synchronised: [usize; 2],
-    /// Mean over all observed errors and seeds at either step; none where none stayed bounded.
+    /// Mean of the observed errors at either step, the geometric one over seeds; none where fewer than
+    /// two seeds stayed bounded.
     pub error: Option<[f64; 2]>,
-    /// The first of these over the second, less one, with its standard error.
-    pub relative: Option<f64>,
+    /// Natural logarithm of the first of these over the second.
+    pub log_ratio: Option<f64>,
+    /// Of this logarithm.
     pub standard_error: Option<f64>,
 }
 
@@ -116,7 +119,7 @@ impl Probe {
             escaped,
             synchronised: runs.map(|runs| runs.iter().filter(is_together).count()),
             error: compared.map(|compared| compared.0),
-            relative: compared.map(|compared| compared.1),
+            log_ratio: compared.map(|compared| compared.1),
             standard_error: compared.map(|compared| compared.2),
         }
     }
@@ -142,27 +145,16 @@ impl StepEffect {
                 return Some(format!("{} of {SEEDS} runs {did}, but {}", counts[0], counts[1]));
             }
         }
-        let ([a, b], relative, error) = (self.error?, self.relative?, self.standard_error?);
-        self.is_large().then(|| {
-            format!(
-                "errors are {}, {} ± {} times as large as {}",
-                two_digits(a),
-                two_digits(1.0 + relative),
-                two_digits(error),
-                two_digits(b)
-            )
+        let ([a, b], ratio, error) = (self.error?, self.log_ratio?, self.standard_error?);
+        let is_large = a.max(b) > ROUNDING
+            && (libm::exp(ratio) - 1.0).abs() > LARGE
+            && ratio.abs() > CERTAIN * error;
+        is_large.then(|| {
+            let [least, times, most] =
+                [ratio - error, ratio, ratio + error].map(|ratio| two_digits(libm::exp(ratio)));
+            let (a, b) = (two_digits(a), two_digits(b));
+            format!("errors are {a}, {times} times ({least} to {most}) as large as {b}")
         })
-    }
-
-    fn is_large(&self) -> bool {
-        let (Some(errors), Some(relative), Some(error)) =
-            (self.error, self.relative, self.standard_error)
-        else {
-            return false;
-        };
-        errors.iter().any(|&error| error > ROUNDING)
-            && relative.abs() > LARGE
-            && relative.abs() > CERTAIN * error
     }
 }
 
@@ -207,9 +199,9 @@ fn largest(errors: &Errors) -> f64 {
     observed(errors).map(|estimate| estimate.mean).fold(0.0, f64::max)
 }
 
-/// Mean error at both steps, and the first over the second less one with its standard error: the
-/// larger of what the scatter of the seeds and the blocks within the runs tell. None for fewer than two
-/// seeds, or where the second is zero.
+/// Geometric means over seeds of the error at both steps, the logarithm of the first over the second,
+/// and its standard error: the larger of what the scatter of the seeds and the blocks within the runs
+/// tell. None for fewer than two seeds, or where an error is zero.
 fn compare(pairs: &[[&Errors; 2]]) -> Option<([f64; 2], f64, f64)> {
     let of = |errors: &Errors| {
         let (mut sum, mut error, mut count) = (0.0, 0.0, 0.0);
@@ -219,27 +211,19 @@ fn compare(pairs: &[[&Errors; 2]]) -> Option<([f64; 2], f64, f64)> {
             error += estimate.standard_error;
             count += 1.0;
         }
-        Estimate { mean: sum / count, standard_error: error / count }
+        Estimate { mean: libm::log(sum / count), standard_error: error / sum }
     };
-    let means: Vec<[Estimate; 2]> = pairs.iter().map(|pair| pair.map(of)).collect();
-    if means.len() < 2 {
+    let logs: Vec<[Estimate; 2]> = pairs.iter().map(|pair| pair.map(of)).collect();
+    if logs.len() < 2 || logs.iter().flatten().any(|log| !log.mean.is_finite()) {
         return None;
     }
-    let n = means.len() as f64;
-    let of_step = |step: usize| means.iter().map(|pair| pair[step].mean).sum::<f64>() / n;
-    let [a, b] = [of_step(0), of_step(1)];
-    if b.is_nan() || b <= 0.0 {
-        return None;
-    }
-    // The ratio of two means, to first order in their differences from the expectation.
-    let residues: Vec<f64> = means.iter().map(|[x, y]| (x.mean - a / b * y.mean) / b).collect();
-    let scatter = Estimate::from_independent(&residues).standard_error;
-    let squares = |pair: &[Estimate; 2]| {
-        let [x, y] = pair.map(|estimate| estimate.standard_error / b);
-        x * x + (a / b * y).powi(2)
-    };
-    let blocks = means.iter().map(squares).sum::<f64>().sqrt() / n;
-    Some(([a, b], a / b - 1.0, scatter.max(blocks)))
+    let n = logs.len() as f64;
+    let means = [0, 1].map(|step| logs.iter().map(|pair| pair[step].mean).sum::<f64>() / n);
+    let ratios: Vec<f64> = logs.iter().map(|[a, b]| a.mean - b.mean).collect();
+    let scatter = Estimate::from_independent(&ratios).standard_error;
+    let squares = |pair: &[Estimate; 2]| pair.iter().map(|e| e.standard_error.powi(2)).sum::<f64>();
+    let blocks = logs.iter().map(squares).sum::<f64>().sqrt() / n;
+    Some((means.map(libm::exp), means[0] - means[1], scatter.max(blocks)))
 }
 
 #[cfg(test)]
@@ -251,19 +235,27 @@ mod tests {
     }
 
     #[test]
-    fn the_effect_is_the_ratio_of_the_means_with_the_scatter_of_the_seeds() {
-        let runs = [[9.0, 1.0], [18.0, 2.0], [27.0, 3.0]].map(|pair| pair.map(errors));
-        let pairs: Vec<[&Errors; 2]> = runs.iter().map(|pair| pair.each_ref()).collect();
+    fn the_effect_is_the_ratio_of_the_errors_with_the_scatter_of_the_seeds() {
+        let of = |runs: [[f64; 2]; 3]| {
+            let runs = runs.map(|pair| pair.map(errors));
+            compare(&runs.iter().map(<[Errors; 2]>::each_ref).collect::<Vec<_>>())
+        };
         // Errors nine times as large in every seed: the ratio does not scatter.
-        let (means, relative, error) = compare(&pairs).unwrap();
-        assert_eq!((means, relative), ([18.0, 2.0], 8.0));
-        assert!(error < 1e-14, "{error}");
-        assert!(compare(&pairs[..1]).is_none(), "of one seed nothing is known");
+        let ([a, b], ratio, error) = of([[9.0, 1.0], [18.0, 2.0], [36.0, 4.0]]).unwrap();
+        assert!((a - 18.0).abs() < 1e-12 && (b - 2.0).abs() < 1e-12, "{a}, {b}");
+        assert!((ratio - 9f64.ln()).abs() < 1e-12 && error < 1e-12, "{ratio} ± {error}");
+        // 1, 2 and 4 times as large: twice, with the scatter of 0, 1 and 2 times ln 2.
+        let (_, ratio, error) = of([[1.0, 1.0], [2.0, 1.0], [4.0, 1.0]]).unwrap();
+        let expected = 2f64.ln() / 3f64.sqrt();
+        assert!((ratio - 2f64.ln()).abs() < 1e-12 && (error - expected).abs() < 1e-12);
+        assert!(of([[1.0, 0.0], [2.0, 1.0], [4.0, 1.0]]).is_none(), "no ratio to nothing");
+        let one = [errors(1.0), errors(2.0)];
+        assert!(compare(&[one.each_ref()]).is_none(), "of one seed nothing is known");
     }
 
     #[test]
-    fn chance_is_no_effect() {
-        let effect = |relative: f64, standard_error: f64| StepEffect {
+    fn chance_and_rounding_are_no_effect() {
+        let effect = |ratio: f64, standard_error: f64| StepEffect {
             epsilon: 1.0,
             step: 0.1,
             transient: 10.0,
@@ -271,14 +263,17 @@ mod tests {
             n_seeds: 6,
             escaped: [0, 0],
             synchronised: [0, 0],
-            error: Some([1.0 + relative, 1.0]),
-            relative: Some(relative),
+            error: Some([libm::exp(ratio), 1.0]),
+            log_ratio: Some(ratio),
             standard_error: Some(standard_error),
         };
-        assert!(effect(8.0, 0.5).is_large());
-        assert!(!effect(0.3, 0.1).is_large(), "three standard errors");
-        assert!(!effect(0.01, 0.0001).is_large(), "one per cent");
-        let rounding = StepEffect { error: Some([3e-13, 1e-13]), ..effect(2.0, 0.1) };
-        assert!(!rounding.is_large());
+        let doubt = effect(2.2, 0.5).doubt().unwrap();
+        assert!(doubt.contains("9 times (5.5 to 15) as large as 1"), "{doubt}");
+        assert!(effect(0.3, 0.1).doubt().is_none(), "three standard errors");
+        assert!(effect(0.01, 0.0001).doubt().is_none(), "one per cent");
+        let rounding = StepEffect { error: Some([3e-13, 1e-13]), ..effect(1.1, 0.1) };
+        assert!(rounding.doubt().is_none());
+        let apart = StepEffect { synchronised: [1, 6], ..effect(0.0, 1.0) };
+        assert_eq!(apart.doubt().unwrap(), "1 of 6 runs synchronised, but 6");
     }
 }

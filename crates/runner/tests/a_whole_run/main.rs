@@ -3,6 +3,7 @@
 
 mod cascade;
 mod comparison;
+mod honest;
 mod odd_networks;
 mod predict;
 mod results;
