@@ -9,6 +9,7 @@ mod data;
 mod reproduce;
 mod setup;
 mod test;
+mod trust;
 
 use std::process::ExitCode;
 
@@ -34,6 +35,8 @@ enum Task {
     Test(test::Args),
     /// Run the benchmarks and record them with the machine; --peers also measures other tools
     Bench(bench::Args),
+    /// Disturb the command at random and see whether it keeps its promises
+    Trust(trust::Args),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Task::Data(args) => data::run(&args),
         Task::Test(args) => test::run(&args),
         Task::Bench(args) => bench::run(&args),
+        Task::Trust(args) => trust::run(&args),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -2,19 +2,21 @@
 //! (and enter) the stable set at the couplings ε = σ_edge / |λ|, and between two of these the
 //! unstable modes, and so the clusters, stay the same.
 //!
-//! Eigenvalue 0 has σ = 0 at every ε, which is never inside the open stable set: the zero modes of a
-//! network of several components are not damped by any coupling and count as unstable throughout.
+//! Eigenvalue 0 has σ = 0 at every ε: the zero modes of a network of several components are unstable
+//! throughout, unless σ = 0 is stable itself, where oscillators are at rest.
 //!
 //! Source: Fan, Wang & Wang (2023), Sec. II, for a stable set σ > σ_c; bounded windows and
 //! unions of intervals follow from the same relation.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use msf::StableRegion;
 use spectra::Spectrum;
 
+use crate::coincidences::Coincidences;
 use crate::distance::{check_finite, check_shapes, check_synchronous_mode, transverse};
-use crate::exact::refined_clusters;
+use crate::exact::ExactClusters;
 use crate::linkage::clusters_of_each;
 use crate::{ClusteringError, Partition};
 
@@ -35,12 +37,22 @@ pub enum ClusterRule {
 pub struct State {
     /// Open range of the coupling strength, from below; no upper end where it is unbounded.
     pub epsilon: (f64, Option<f64>),
-    /// Unstable transverse modes, from 0, ascending.
+    /// Unstable transverse modes, from 0, ascending; of a merged state all that are unstable anywhere
+    /// in its range.
     pub unstable_modes: Vec<usize>,
+    /// How many modes are unstable at one ε of the range: the least and the most.
+    pub n_unstable: (usize, usize),
     /// The nodes that stay together.
-    pub clusters: Partition,
-    /// Whether the range ends only because the next modes were not computed: at its lower end the
-    /// last computed eigenspace becomes unstable, and others may with it, or the next ones may.
+    pub clusters: Arc<Partition>,
+    /// Those of them that stay together exactly, as far as is known: here nodes of one cluster that no
+    /// unstable mode tells apart, and after [`crate::hold_against_links`] the coarsest equitable
+    /// refinement of that. From a spectrum too rough to tell every node is a cell of its own.
+    pub cells: Arc<Partition>,
+    /// Clusters that chance alone explains, which were taken apart.
+    pub coincidences: Option<Coincidences>,
+    /// Whether the range ends only because no more is known: at its lower end the last computed
+    /// eigenspace becomes unstable, and others may with it, or the next ones may; or a mode comes to
+    /// a σ below all that were looked at.
     pub truncated: bool,
 }
 
@@ -48,6 +60,13 @@ impl State {
     /// Whether a coupling strength lies in the range of this state, its upper end included.
     pub fn holds_at(&self, epsilon: f64) -> bool {
         epsilon > self.epsilon.0 && self.epsilon.1.is_none_or(|to| epsilon <= to)
+    }
+
+    /// Those of these states, from the largest ε down, that were merged into this one.
+    pub fn stretches<'a>(&self, states: &'a [Self]) -> &'a [Self] {
+        let (from, to) = self.epsilon;
+        let start = to.map_or(0, |to| states.partition_point(|state| state.epsilon.0 >= to));
+        &states[start..states.partition_point(|state| state.epsilon.0 >= from)]
     }
 }
 
@@ -92,18 +111,19 @@ pub fn cascade_reported(
     let eigenspaces = Eigenspace::of(spectrum);
     let lowest = lowest_coupling(spectrum, &eigenspaces, stable)?;
     let stretches = stretches(&eigenspaces, stable, lowest);
+    let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
     let clusters = match rule {
-        ClusterRule::Exact => exact_clusters(spectrum, &stretches, progress)?,
-        ClusterRule::Threshold(threshold) => {
-            let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
-            clusters_of_each(spectrum, &sets, threshold, progress)?
-        }
+        ClusterRule::Exact => exact_clusters(spectrum, &sets, progress)?,
+        ClusterRule::Threshold(threshold) => near_clusters(spectrum, &sets, threshold, progress)?,
     };
     let last = stretches.len() - 1;
-    let state = |(number, (stretch, clusters)): (usize, (Stretch, Partition))| State {
+    let state = |(number, (stretch, clusters)): (usize, (Stretch, Clusters))| State {
         epsilon: stretch.epsilon,
+        n_unstable: (stretch.unstable_modes.len(), stretch.unstable_modes.len()),
         unstable_modes: stretch.unstable_modes,
-        clusters,
+        clusters: clusters.together,
+        cells: clusters.alike,
+        coincidences: None,
         truncated: number == last && lowest > 0.0,
     };
     Ok(stretches.into_iter().zip(clusters).enumerate().map(state).collect())
@@ -111,16 +131,21 @@ pub fn cascade_reported(
 
 /// The states with neighbours of equal clusters merged, as an observer of clusters sees them.
 ///
+/// Equal are those that are also exact alike: where more modes become unstable under a threshold, all
+/// clusters may stay as they are although exact synchrony is lost in some, and that is another state.
 /// A merged state spans both ranges; its unstable modes are all those unstable somewhere in it.
 pub fn merge_equal_clusters(states: &[State]) -> Vec<State> {
     let mut merged: Vec<State> = Vec::new();
     for state in states {
         match merged.last_mut() {
-            Some(last) if last.clusters == state.clusters => {
+            Some(last) if last.clusters == state.clusters && last.cells == state.cells => {
                 last.epsilon.0 = state.epsilon.0;
                 last.unstable_modes.extend(&state.unstable_modes);
                 last.unstable_modes.sort_unstable();
                 last.unstable_modes.dedup();
+                let ((least, most), (fewer, more)) = (last.n_unstable, state.n_unstable);
+                last.n_unstable = (least.min(fewer), most.max(more));
+                last.coincidences = last.coincidences.or(state.coincidences);
                 last.truncated = state.truncated;
             }
             _ => merged.push(state.clone()),
@@ -147,15 +172,16 @@ impl Eigenspace {
     }
 }
 
-/// Down to which ε the computed modes decide: 0 if they are all there are.
+/// Down to which ε the computed modes decide: 0 if they are all there are, and all σ are known.
 fn lowest_coupling(
     spectrum: &Spectrum,
     eigenspaces: &[Eigenspace],
     stable: &StableRegion,
 ) -> Result<f64, ClusteringError> {
     let (computed, n_nodes) = (spectrum.eigenvalues.len(), spectrum.eigenvectors[0].len());
+    let unknown_below = lowest_looked_at(eigenspaces, stable);
     if computed == n_nodes {
-        return Ok(0.0);
+        return Ok(unknown_below);
     }
     let of_cutoff = spectrum.cutoff.map_or(0.0, |cutoff| -cutoff);
     let largest = eigenspaces.last().map_or(0.0, |space| space.magnitude).max(of_cutoff);
@@ -163,9 +189,18 @@ fn lowest_coupling(
         return Err(ClusteringError::NoTransverseMode { computed, n_nodes });
     }
     match stable.intervals.last() {
-        Some(interval) if interval.to.is_none() => Ok(interval.from / largest),
+        Some(interval) if interval.upper().is_none() => {
+            Ok(unknown_below.max(interval.lower() / largest))
+        }
         _ => Err(ClusteringError::PartialSpectrum { computed, n_nodes }),
     }
+}
+
+/// ε at which the slowest mode comes to the lowest σ that was looked at, if the stable set begins
+/// only there; else 0.
+fn lowest_looked_at(eigenspaces: &[Eigenspace], stable: &StableRegion) -> f64 {
+    let slowest = eigenspaces.iter().map(|space| space.magnitude).find(|&lambda| lambda > 0.0);
+    stable.unknown_below().zip(slowest).map_or(0.0, |(sigma, lambda)| sigma / lambda)
 }
 
 /// The ranges of ε between neighbouring transitions, from the largest down to `lowest`.
@@ -174,7 +209,7 @@ fn ranges(
     stable: &StableRegion,
     lowest: f64,
 ) -> Vec<(f64, Option<f64>)> {
-    let edges = stable.intervals.iter().flat_map(|interval| [Some(interval.from), interval.to]);
+    let edges = stable.intervals.iter().flat_map(|i| [Some(i.lower()), i.upper()]);
     let mut couplings: Vec<f64> = edges
         .flatten()
         .flat_map(|edge| eigenspaces.iter().map(move |space| edge / space.magnitude))
@@ -222,33 +257,52 @@ fn stretches(eigenspaces: &[Eigenspace], stable: &StableRegion, lowest: f64) -> 
     stretches
 }
 
-/// [`crate::EigenvectorDistance::exact_clusters`] of every stretch.
-///
-/// Further unstable modes only split exact clusters: each is looked for within those of the stretch
-/// above, so that none comes back by rounding, and not at all where none is left.
-fn exact_clusters(
-    spectrum: &Spectrum,
-    stretches: &[Stretch],
-    progress: &dyn Fn(u64),
-) -> Result<Vec<Partition>, ClusteringError> {
-    let n_nodes = spectrum.eigenvectors[0].len();
-    let one_cluster = Partition::one_cluster(n_nodes);
-    let mut found: Vec<Partition> = Vec::new();
-    for (number, stretch) in stretches.iter().enumerate() {
-        let modes = &stretch.unstable_modes;
-        let only_splits = |_: &&Partition| are_among(&stretches[number - 1].unstable_modes, modes);
-        let above = found.last().filter(only_splits).unwrap_or(&one_cluster);
-        found.push(if above.n_clusters() == n_nodes {
-            above.clone()
-        } else {
-            refined_clusters(spectrum, modes, above)?
-        });
-        progress(1);
-    }
-    Ok(found)
+/// The clusters of one stretch, and those of their nodes that no unstable mode tells apart.
+struct Clusters {
+    together: Arc<Partition>,
+    alike: Arc<Partition>,
 }
 
-/// Whether all modes of the first set are in the second; both ascend.
-fn are_among(some: &[usize], all: &[usize]) -> bool {
-    some.iter().all(|mode| all.binary_search(mode).is_ok())
+/// [`crate::EigenvectorDistance::exact_clusters`] of every set of unstable modes.
+fn exact_clusters(
+    spectrum: &Spectrum,
+    sets: &[&[usize]],
+    progress: &dyn Fn(u64),
+) -> Result<Vec<Clusters>, ClusteringError> {
+    let mut exact = ExactClusters::new(spectrum);
+    let of = |modes: &&[usize]| {
+        let together = exact.of(modes)?;
+        progress(1);
+        Ok(Clusters { alike: Arc::clone(&together), together })
+    };
+    sets.iter().map(of).collect()
+}
+
+/// [`crate::EigenvectorDistance::clusters_within`] of every set of unstable modes.
+fn near_clusters(
+    spectrum: &Spectrum,
+    sets: &[&[usize]],
+    threshold: f64,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<Clusters>, ClusteringError> {
+    let n_nodes = spectrum.eigenvectors[0].len();
+    let near = clusters_of_each(spectrum, sets, threshold, progress)?;
+    let mut exact = ExactClusters::new(spectrum);
+    let mut last: Option<Arc<Partition>> = None;
+    let mut of = |(together, modes): (Partition, &&[usize])| {
+        let alike = match exact.of(modes) {
+            Err(ClusteringError::SpectrumTooRough { .. }) => Partition::singletons(n_nodes).into(),
+            alike => alike?,
+        };
+        let alike = match alike.is_refinement_of(&together) {
+            true => alike,
+            false => alike.intersection(&together).into(),
+        };
+        // Most neighbours have equal clusters: one copy is enough.
+        let shared = last.take().filter(|last| **last == together);
+        let together = shared.unwrap_or_else(|| Arc::new(together));
+        last = Some(Arc::clone(&together));
+        Ok(Clusters { together, alike })
+    };
+    near.into_iter().zip(sets).map(&mut of).collect()
 }

@@ -169,44 +169,10 @@ impl EigenvectorDistance {
         Ok(clusters_within_groups(points, threshold, &one_cluster, work))
     }
 
-    /// How far the nodes of every cluster are from its first.
-    ///
-    /// # Panics
-    /// If the partition is of other nodes.
-    pub(crate) fn spreads(&self, partition: &Partition) -> Vec<Spread> {
-        let (n_nodes, n_divided) = (self.n_nodes, partition.n_nodes());
-        assert_eq!(n_nodes, n_divided, "distances of {n_nodes} nodes, a partition of {n_divided}");
-        let is_known = check_tolerance(self.exact_tolerance, n_nodes).is_ok();
-        let euclidean = Metric::euclidean(self.metric.width());
-        let first_nodes = partition.first_nodes();
-        let mut spreads = vec![Spread { distance: 0.0, is_rounding: is_known }; first_nodes.len()];
-        for (node, &cluster) in partition.cluster_of().iter().enumerate() {
-            if node == first_nodes[cluster] {
-                continue;
-            }
-            let (first, row) = (self.row(first_nodes[cluster]), self.row(node));
-            let Spread { distance, is_rounding } = &mut spreads[cluster];
-            *distance = distance.max(self.metric.distance_up_to(f64::INFINITY, first, row));
-            let is_near = |limit| euclidean.distance_up_to(limit, first, row) <= limit;
-            *is_rounding = *is_rounding && is_near(self.exact_tolerance);
-        }
-        spreads
-    }
-
     fn row(&self, i: usize) -> &[f64] {
         let width = self.metric.width();
         &self.rows[i * width..][..width]
     }
-}
-
-/// How far the nodes of a cluster are from its first.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Spread {
-    /// Largest δe.
-    pub(crate) distance: f64,
-    /// Whether all are within [`EigenvectorDistance::exact_tolerance`] in the unstable subspace, and
-    /// that is small enough to tell.
-    pub(crate) is_rounding: bool,
 }
 
 /// c_d = d Γ(d/2) / (√π Γ((d+1)/2)): the mean of Σ_b |u_b · x| over orthonormal bases u_1 … u_d, for

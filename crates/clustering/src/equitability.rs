@@ -83,7 +83,10 @@ pub fn equitable(
     Ok(Equitability { tolerance, deviations })
 }
 
-fn check_weights(matrix: CsMatViewI<'_, f64, u32, usize>) -> Result<(), ClusteringError> {
+/// Weights are numbers.
+pub(crate) fn check_weights(
+    matrix: CsMatViewI<'_, f64, u32, usize>,
+) -> Result<(), ClusteringError> {
     let mut weights = matrix.iter();
     match weights.find(|(weight, _)| !weight.is_finite()) {
         Some((&weight, (row, column))) => Err(ClusteringError::WeightNotFinite {

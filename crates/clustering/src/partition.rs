@@ -143,6 +143,24 @@ impl Partition {
         &self.cluster_of
     }
 
+    /// The first node of the cluster of every node.
+    pub(crate) fn roots(&self) -> Vec<u32> {
+        let first = self.first_nodes();
+        self.cluster_of.iter().map(|&cluster| first[cluster] as u32).collect()
+    }
+
+    /// The coarsest partition that refines both: nodes that share a cluster in each.
+    ///
+    /// # Panics
+    /// If the partitions are of different numbers of nodes.
+    pub fn intersection(&self, other: &Self) -> Self {
+        let (n, n_other) = (self.n_nodes(), other.n_nodes());
+        assert_eq!(n, n_other, "partitions of {n} and {n_other} nodes");
+        let pairs = self.cluster_of.iter().zip(&other.cluster_of);
+        let marks: Vec<usize> = pairs.map(|(a, b)| a * other.n_clusters + b).collect();
+        Self::from_marks(&marks)
+    }
+
     /// Number of nodes of every cluster.
     pub fn sizes(&self) -> Vec<usize> {
         let mut sizes = vec![0; self.n_clusters];

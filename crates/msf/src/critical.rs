@@ -2,7 +2,7 @@
 //!
 //! Source: Fan, Wang & Wang (2023), Sec. II, for the one edge σ_c of an unbounded stable set.
 
-use crate::{MasterStability, Zero};
+use crate::{StableRegion, Zero};
 
 /// A coupling strength at which a transverse mode changes its stability.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,8 @@ pub struct CriticalCoupling {
     pub standard_error: f64,
     /// Whether the mode is damped just above ε_k (else just below).
     pub stable_above: bool,
+    /// Whether the zero is known as well as was asked for: [`Zero::refined`].
+    pub refined: bool,
 }
 
 /// Critical couplings of all transverse modes, mode by mode, and within a mode by ascending σ.
@@ -24,14 +26,15 @@ pub struct CriticalCoupling {
 /// `eigenvalues` are λ_1 = 0 ≥ λ_2 ≥ …; the first is skipped. Eigenvalues above −`tolerance` count
 /// as zero: such a mode belongs to another component of the network and never synchronises.
 pub fn critical_couplings(
-    msf: &MasterStability,
+    stable: &StableRegion,
     eigenvalues: &[f64],
     tolerance: f64,
 ) -> Vec<CriticalCoupling> {
     let transverse = eigenvalues.iter().enumerate().skip(1);
     transverse
         .flat_map(|(k, &lambda)| {
-            msf.zeros.iter().map(move |&Zero { sigma, standard_error, falling }| {
+            stable.zeros().map(move |zero| {
+                let Zero { sigma, standard_error, falling, refined } = zero;
                 let per_sigma = if lambda < -tolerance { 1.0 / -lambda } else { f64::INFINITY };
                 CriticalCoupling {
                     mode: k + 1,
@@ -39,6 +42,7 @@ pub fn critical_couplings(
                     epsilon: sigma * per_sigma,
                     standard_error: standard_error * per_sigma,
                     stable_above: falling,
+                    refined,
                 }
             })
         })
@@ -48,14 +52,14 @@ pub fn critical_couplings(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{End, Interval};
 
     #[test]
     fn couplings_are_the_edges_over_the_eigenvalues() {
-        let msf = MasterStability {
-            zeros: vec![Zero { sigma: 8.0, standard_error: 0.02, falling: true }],
-            ..MasterStability::default()
-        };
-        let found = critical_couplings(&msf, &[0.0, 0.0, -2.0, -4.0], 1e-9);
+        let zero = Zero { standard_error: 0.02, ..Zero::exact(8.0, true) };
+        let interval = Interval { from: End::Zero(zero), to: End::Looked { sigma: 12.0 } };
+        let stable = StableRegion { intervals: vec![interval] };
+        let found = critical_couplings(&stable, &[0.0, 0.0, -2.0, -4.0], 1e-9);
         let epsilons: Vec<_> = found.iter().map(|c| (c.mode, c.epsilon)).collect();
         assert_eq!(epsilons, [(2, f64::INFINITY), (3, 4.0), (4, 2.0)]);
         assert_eq!(found[1].standard_error, 0.01);

@@ -3,11 +3,12 @@
 use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
 use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
-use crate::zeros::{self, Refinement, Zero};
-use crate::{Interval, MsfError, StableRegion};
+use crate::attractors::{self, Attractor, Column};
+use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
+use crate::{End, Interval, MsfError, StableRegion, origin};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
-const ISOLATED_ORBITS: u64 = 16;
+const ISOLATED_ORBITS: usize = 16;
 
 /// An oscillator with the function through which it is coupled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +34,18 @@ pub struct Request {
     pub instruction_set: InstructionSet,
 }
 
+/// What the isolated oscillator does, by its largest Lyapunov exponent Λ(0).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Isolated {
+    /// Λ(0) > 0.
+    #[default]
+    Chaotic,
+    /// Λ(0) = 0 within its errors: a periodic orbit, or chaos too weak to tell.
+    Periodic,
+    /// Λ(0) < 0: it comes to rest at a fixed point, where all nodes are equal without any coupling.
+    AtRest,
+}
+
 /// The master stability function as computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MasterStability {
@@ -42,45 +55,18 @@ pub struct MasterStability {
     pub lambda: Vec<Estimate>,
     /// Λ(0): the largest Lyapunov exponent of the isolated oscillator.
     pub isolated: Estimate,
-    /// Zeros of Λ within the grid, ascending.
-    pub zeros: Vec<Zero>,
-    /// Whether Λ is negative before its first zero.
-    pub initially_stable: bool,
-}
-
-impl MasterStability {
-    /// The stable set {Λ < 0} as far as the grid reaches. An interval that is still stable at the last
-    /// σ of the grid has no upper end.
-    pub fn stable_region(&self) -> StableRegion {
-        let first_sigma = self.sigma.first().copied().unwrap_or_default();
-        let mut open = self.initially_stable.then_some(first_sigma);
-        let mut intervals = Vec::new();
-        for zero in &self.zeros {
-            match (zero.falling, open) {
-                (true, None) => open = Some(zero.sigma),
-                (false, Some(from)) => {
-                    intervals.push(Interval { from, to: Some(zero.sigma) });
-                    open = None;
-                }
-                // Zeros alternate, since each is a change of sign.
-                (true, Some(_)) | (false, None) => {}
-            }
-        }
-        intervals.extend(open.map(|from| Interval { from, to: None }));
-        StableRegion { intervals }
-    }
-
-    /// σ_c: the edge of the stable set when that is σ > σ_c, as far as the grid reaches.
-    pub fn sigma_c(&self) -> Option<Zero> {
-        match self.zeros[..] {
-            [zero] if zero.falling => Some(zero),
-            _ => None,
-        }
-    }
+    /// What Λ(0) says.
+    pub state: Isolated,
+    /// The stable set {Λ < 0} as far as was looked; of several attractors, what is stable on each.
+    pub stable: StableRegion,
+    /// Each of them, the one of most orbits first, where orbits settle on several attractors; the
+    /// curve and Λ(0) are then those of the first.
+    pub attractors: Vec<Attractor>,
 }
 
 /// Computes Λ on the grid, the isolated exponent, and every zero to the accuracy asked for, or as
-/// well as the allowed rounds of refinement give; each zero carries the standard error it has.
+/// well as the allowed rounds of refinement give; each zero carries the standard error it has. Where
+/// orbits settle on different attractors each has a curve of its own, and no average is taken.
 ///
 /// Runs on the current rayon pool; the result does not depend on the number of threads.
 ///
@@ -96,42 +82,175 @@ pub fn master_stability(
     if request.sigma.len() < 2 || !ascending || !from_zero {
         return Err(MsfError::BadGrid);
     }
-    let exponents = |tangents: &[Tangent]| {
-        let (times, set) = (&request.times, request.instruction_set);
-        master_exponents_with(set, node.model, node.coupling, times, tangents, progress)
-    };
-    let mut seeds = Seeds { next: request.seed.wrapping_mul(1 << 32) };
-    let isolated: Vec<_> =
-        (0..ISOLATED_ORBITS).map(|_| Tangent { sigma: 0.0, seed: seeds.next() }).collect();
-    let isolated: Vec<f64> = exponents(&isolated)?.iter().map(|estimate| estimate.mean).collect();
-    // One orbit serves the whole grid. Zeros are found from orbits of their own, since their standard
-    // errors come from the scatter of independent exponents.
-    let seed = seeds.next();
-    let grid: Vec<_> = request.sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
-    let curve = MasterStability {
-        sigma: request.sigma.clone(),
-        lambda: exponents(&grid)?,
-        isolated: Estimate::from_independent(&isolated),
-        ..MasterStability::default()
-    };
-    let (zeros, initially_stable) =
-        zeros::find(&curve, &request.refinement, |sigmas: &[f64]| {
-            let tangents: Vec<_> =
-                sigmas.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
-            Ok(exponents(&tangents)?.iter().map(|estimate| estimate.mean).collect())
-        })?;
-    Ok(MasterStability { zeros, initially_stable, ..curve })
+    let work = Work { node, request, progress };
+    let mut seeds = Seeds::new(request.seed);
+    let (curve, split) = work.curve(&mut seeds)?;
+    match split {
+        Some(sigma) => work.on_each_attractor(curve, sigma, &mut seeds),
+        None => Ok(curve),
+    }
 }
 
-/// Seeds that follow one another, so that no two orbits of a computation are the same.
-struct Seeds {
-    next: u64,
+/// One computation.
+struct Work<'a> {
+    node: &'a Node,
+    request: &'a Request,
+    progress: Progress<'a>,
+}
+
+impl Work<'_> {
+    fn exponents(&self, tangents: &[Tangent]) -> Result<Vec<Estimate>, MsfError> {
+        let (node, times, set) = (self.node, &self.request.times, self.request.instruction_set);
+        let (model, coupling) = (node.model, node.coupling);
+        Ok(master_exponents_with(set, model, coupling, times, tangents, self.progress)?)
+    }
+
+    /// What an average over this time does not know of an exponent in any case: the length of a
+    /// tangent varies along the orbit by a factor of order one.
+    fn floor(&self) -> f64 {
+        1.0 / self.request.times.average
+    }
+
+    /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.
+    fn curve(&self, seeds: &mut Seeds) -> Result<(MasterStability, Option<f64>), MsfError> {
+        let (sigma, floor) = (&self.request.sigma, self.floor());
+        let isolated = seeds.orbits().map(|seed| Tangent { sigma: 0.0, seed }).collect::<Vec<_>>();
+        let isolated = self.exponents(&isolated)?;
+        let split = attractors::split(&[Column { sigma: 0.0, exponents: &isolated }], floor);
+        let isolated = estimate_of(&isolated);
+        // One orbit serves the whole grid. Zeros are found from orbits of their own, since their
+        // standard errors come from the scatter of independent exponents.
+        let seed = seeds.next();
+        let grid: Vec<_> = sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
+        let lambda = self.exponents(&grid)?;
+        let state = match sign(isolated, floor) {
+            Some(true) => Isolated::AtRest,
+            Some(false) => Isolated::Chaotic,
+            None => Isolated::Periodic,
+        };
+        let measure = |sigmas: &[f64]| {
+            let tangents: Vec<_> =
+                sigmas.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
+            self.exponents(&tangents)
+        };
+        let mut finder = Finder { refinement: &self.request.refinement, floor, measure, split };
+        let positive: Vec<(f64, Estimate)> =
+            sigma.iter().copied().zip(lambda.iter().copied()).filter(|p| p.0 > 0.0).collect();
+        let certain = finder.settle(&positive)?;
+        let (certain, from) = origin::with(state, certain, &mut finder)?;
+        let found = finder.zeros(&certain)?;
+        let stable = region(&certain, &found.zeros, from);
+        let sigma = sigma.clone();
+        let curve =
+            MasterStability { sigma, lambda, isolated, state, stable, attractors: Vec::new() };
+        Ok((curve, found.split))
+    }
+
+    /// The curve of each attractor. Orbits belong to one by their exponents where these differ.
+    fn on_each_attractor(
+        &self,
+        mixed: MasterStability,
+        sigma: f64,
+        seeds: &mut Seeds,
+    ) -> Result<MasterStability, MsfError> {
+        let seeds: Vec<u64> = seeds.orbits().collect();
+        let probes: Vec<_> = seeds.iter().map(|&seed| Tangent { sigma, seed }).collect();
+        let exponents = self.exponents(&probes)?;
+        let groups = attractors::groups(&exponents, self.floor());
+        // Orbits that are all alike now were not for good, or a rare attractor does not come again.
+        if groups.len() < 2 {
+            return Ok(mixed);
+        }
+        let mut curves = Vec::new();
+        let mut attractors = Vec::new();
+        for group in groups {
+            let of_group: Vec<Estimate> = group.iter().map(|&orbit| exponents[orbit]).collect();
+            let mut orbits = Seeds::again(group.iter().map(|&orbit| seeds[orbit]).collect());
+            let (curve, _) = self.curve(&mut orbits)?;
+            attractors.push(Attractor {
+                orbits: group.len(),
+                of: seeds.len(),
+                told_at: sigma,
+                lambda: estimate_of(&of_group),
+                isolated: curve.isolated,
+                state: curve.state,
+                stable: curve.stable.clone(),
+            });
+            curves.push(curve);
+        }
+        let stable = attractors
+            .iter()
+            .skip(1)
+            .fold(attractors[0].stable.clone(), |all, next| all.intersection(&next.stable));
+        Ok(MasterStability { stable, attractors, ..curves.swap_remove(0) })
+    }
+}
+
+/// Mean over orbits with its scatter; of a single orbit what its blocks say.
+fn estimate_of(exponents: &[Estimate]) -> Estimate {
+    match exponents {
+        [single] => *single,
+        _ => Estimate::from_independent(&exponents.iter().map(|e| e.mean).collect::<Vec<_>>()),
+    }
+}
+
+/// The intervals between zeros, with what the lowest end is where the curve begins stable.
+fn region(certain: &[Signed], zeros: &[Zero], from: Option<End>) -> StableRegion {
+    let mut open = from;
+    let mut intervals = Vec::new();
+    for &zero in zeros {
+        match (zero.falling, open) {
+            (true, None) => open = Some(End::Zero(zero)),
+            (false, Some(from)) => {
+                intervals.push(Interval { from, to: End::Zero(zero) });
+                open = None;
+            }
+            // Zeros alternate, since each is a change of sign.
+            (true, Some(_)) | (false, None) => {}
+        }
+    }
+    let last = certain.last().map_or(0.0, |last| last.sigma);
+    intervals.extend(open.map(|from| Interval { from, to: End::Looked { sigma: last } }));
+    StableRegion { intervals }
+}
+
+/// Seeds of orbits.
+enum Seeds {
+    /// Ever new ones.
+    New { next: u64 },
+    /// The same ones over and over, of orbits that are known to be on one attractor.
+    Again { seeds: Vec<u64>, next: usize },
 }
 
 impl Seeds {
+    fn new(seed: u64) -> Self {
+        Self::New { next: seed.wrapping_mul(1 << 32) }
+    }
+
+    fn again(seeds: Vec<u64>) -> Self {
+        Self::Again { seeds, next: 0 }
+    }
+
     fn next(&mut self) -> u64 {
-        self.next = self.next.wrapping_add(1);
-        self.next
+        match self {
+            Self::New { next } => {
+                *next = next.wrapping_add(1);
+                *next
+            }
+            Self::Again { seeds, next } => {
+                *next += 1;
+                seeds[(*next - 1) % seeds.len()]
+            }
+        }
+    }
+
+    /// Those for an average over orbits, each once.
+    fn orbits(&mut self) -> impl Iterator<Item = u64> {
+        let count = match self {
+            Self::New { .. } => ISOLATED_ORBITS,
+            Self::Again { seeds, .. } => seeds.len(),
+        };
+        (0..count).map(move |_| self.next())
     }
 }
 
@@ -139,26 +258,22 @@ impl Seeds {
 mod tests {
     use super::*;
 
-    fn stable(initially_stable: bool, zeros: &[(f64, bool)]) -> Vec<(f64, Option<f64>)> {
-        let zeros =
-            zeros.iter().map(|&(sigma, falling)| Zero { sigma, standard_error: 0.0, falling });
-        let curve = MasterStability {
-            sigma: vec![0.0, 10.0],
-            zeros: zeros.collect(),
-            initially_stable,
-            ..MasterStability::default()
-        };
-        let region = curve.stable_region();
-        region.intervals.iter().map(|interval| (interval.from, interval.to)).collect()
+    fn stable(from: Option<End>, zeros: &[(f64, bool)]) -> Vec<(f64, Option<f64>)> {
+        let zeros: Vec<_> =
+            zeros.iter().map(|&(sigma, falling)| Zero::exact(sigma, falling)).collect();
+        let certain = [Signed { sigma: 10.0, negative: true }];
+        let region = region(&certain, &zeros, from);
+        region.intervals.iter().map(|interval| (interval.lower(), interval.upper())).collect()
     }
 
     #[test]
     fn the_stable_set_opens_at_falling_zeros_and_closes_at_rising_ones() {
-        assert_eq!(stable(false, &[]), []);
-        assert_eq!(stable(true, &[]), [(0.0, None)]);
-        assert_eq!(stable(false, &[(8.0, true)]), [(8.0, None)]);
-        assert_eq!(stable(false, &[(0.2, true), (4.6, false)]), [(0.2, Some(4.6))]);
+        let origin = Some(End::Origin { included: false });
+        assert_eq!(stable(None, &[]), []);
+        assert_eq!(stable(origin, &[]), [(0.0, None)]);
+        assert_eq!(stable(None, &[(8.0, true)]), [(8.0, None)]);
+        assert_eq!(stable(None, &[(0.2, true), (4.6, false)]), [(0.2, Some(4.6))]);
         let twice = [(1.0, false), (2.0, true), (3.0, false), (4.0, true)];
-        assert_eq!(stable(true, &twice), [(0.0, Some(1.0)), (2.0, Some(3.0)), (4.0, None)]);
+        assert_eq!(stable(origin, &twice), [(0.0, Some(1.0)), (2.0, Some(3.0)), (4.0, None)]);
     }
 }

@@ -6,16 +6,20 @@
 //!
 //! Source: L. M. Pecora & T. L. Carroll, PRL 80, 2109 (1998).
 
+mod attractors;
 mod critical;
 mod curve;
 mod error;
+mod fit;
+mod origin;
 mod reach;
 mod stable_region;
 mod zeros;
 
+pub use attractors::Attractor;
 pub use critical::{CriticalCoupling, critical_couplings};
-pub use curve::{MasterStability, Node, Request, master_stability};
+pub use curve::{Isolated, MasterStability, Node, Request, master_stability};
 pub use error::MsfError;
 pub use reach::reach;
-pub use stable_region::{Interval, StableRegion};
+pub use stable_region::{End, Interval, StableRegion};
 pub use zeros::{Refinement, Zero};

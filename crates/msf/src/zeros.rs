@@ -1,28 +1,46 @@
-//! Zeros of Λ(σ): found on the grid where its sign is certain, then refined by a straight line
-//! through many independent exponents, with more of them where the sign is in doubt.
+//! Zeros of Λ(σ). Between two σ of certain and opposite signs more are measured until the change of
+//! sign is as narrow as noise allows; then a straight line through many independent exponents gives
+//! the zero, in a window so narrow that bending does not matter beside the accuracy asked for.
 
-use std::ops::Range;
+use dynamics::Estimate;
 
-use crate::{MasterStability, MsfError};
+use crate::MsfError;
+use crate::attractors::{self, Column};
+use crate::fit::{Line, Sample, curvature};
 
-/// Exponents measured in each round of a refinement.
-const PER_ROUND: usize = 32;
+/// Exponents measured in each round.
+pub(crate) const PER_ROUND: usize = 32;
+/// A round that looks for signs has as many σ, and as many orbits at each.
+const COLUMNS: usize = 8;
+const ORBITS: usize = PER_ROUND / COLUMNS;
 
 /// A sign is certain when Λ is this many standard errors away from zero.
 const CERTAIN: f64 = 4.0;
+
+/// Half the width of the last window, in standard errors asked for and in those obtained: wide enough
+/// that noise does not hide the slope, and no wider.
+const WINDOW: f64 = 8.0;
 
 /// A zero of Λ, where the stability of a mode changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Zero {
     /// Where Λ(σ) = 0.
     pub sigma: f64,
-    /// Standard error of it, from the scatter of independent orbits about the line.
+    /// Standard error of it, from the scatter of independent orbits about a line and what bending of
+    /// Λ may add; half the width of the bracket where no line could be drawn.
     pub standard_error: f64,
     /// Whether Λ falls through zero, so that larger σ is stable.
     pub falling: bool,
+    /// Whether it is known as well as was asked for: [`Refinement::relative_error`].
+    pub refined: bool,
 }
 
 impl Zero {
+    /// A zero that is known exactly, as in closed forms.
+    pub fn exact(sigma: f64, falling: bool) -> Self {
+        Self { sigma, standard_error: 0.0, falling, refined: true }
+    }
+
     /// Interval that holds the zero with a probability of 95 %.
     pub fn confidence_interval(&self) -> [f64; 2] {
         let half_width = 1.96 * self.standard_error;
@@ -45,155 +63,195 @@ impl Default for Refinement {
     }
 }
 
-/// The zeros of a curve, ascending, and whether Λ is negative before the first of them. `measure`
-/// gives Λ at each of the σ it is asked for, from orbits that are new every time.
-pub(crate) fn find(
-    curve: &MasterStability,
-    refinement: &Refinement,
-    mut measure: impl FnMut(&[f64]) -> Result<Vec<f64>, MsfError>,
-) -> Result<(Vec<Zero>, bool), MsfError> {
-    let signs = settle_signs(curve, &mut measure)?;
-    let certain: Vec<(f64, bool)> = curve
-        .sigma
-        .iter()
-        .zip(signs)
-        .filter_map(|(&sigma, negative)| Some((sigma, negative?)))
-        .collect();
-    let zeros = certain
-        .windows(2)
-        .filter(|pair| pair[0].1 != pair[1].1)
-        .map(|pair| refine([pair[0].0, pair[1].0], pair[1].1, refinement, &mut measure))
-        .collect::<Result<_, _>>()?;
-    Ok((zeros, certain.first().is_some_and(|&(_, negative)| negative)))
+/// A σ whose sign is certain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Signed {
+    pub sigma: f64,
+    /// Whether Λ < 0.
+    pub negative: bool,
 }
 
-/// Of each grid point whether Λ < 0; none where that stays in doubt.
-///
-/// Doubtful points between certain ones of opposite sign need no more time: the zero between these is
-/// refined anyway. All others are measured again, as a whole round each.
-fn settle_signs(
-    curve: &MasterStability,
-    measure: &mut impl FnMut(&[f64]) -> Result<Vec<f64>, MsfError>,
-) -> Result<Vec<Option<bool>>, MsfError> {
-    let sign = |mean: f64, error: f64| (mean.abs() > CERTAIN * error).then_some(mean < 0.0);
-    let mut signs: Vec<_> =
-        curve.lambda.iter().map(|lambda| sign(lambda.mean, lambda.standard_error)).collect();
-    for doubtful in runs_of_doubt(&signs) {
-        let before = doubtful.start.checked_sub(1).and_then(|i| signs[i]);
-        let after = signs.get(doubtful.end).copied().flatten();
-        if before.is_some() && after.is_some() && before != after {
-            continue;
+/// The sign of Λ, if that is certain: whether it is negative. `floor` is what is not known of an
+/// exponent in any case, 1/T.
+pub(crate) fn sign(estimate: Estimate, floor: f64) -> Option<bool> {
+    let error = estimate.standard_error.hypot(floor);
+    (estimate.mean.abs() > CERTAIN * error).then_some(estimate.mean < 0.0)
+}
+
+/// The zeros between certain signs, ascending, and a σ at which orbits were seen to be on different
+/// attractors: the zeros are then no property of any of these.
+pub(crate) struct Found {
+    pub zeros: Vec<Zero>,
+    pub split: Option<f64>,
+}
+
+/// Finds zeros with exponents that `measure` gives at each of the σ it is asked for, from orbits that
+/// are new every time.
+pub(crate) struct Finder<'a, M> {
+    pub refinement: &'a Refinement,
+    pub floor: f64,
+    pub measure: M,
+    /// Where orbits have settled on different attractors.
+    pub split: Option<f64>,
+}
+
+impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
+    /// Of each grid point, with the exponent there, whether Λ < 0; none where that stays in doubt.
+    ///
+    /// Doubtful points between certain ones of opposite sign need no more time: the zero between
+    /// these is refined anyway. All others are measured again, as a whole round each.
+    pub fn settle(&mut self, grid: &[(f64, Estimate)]) -> Result<Vec<Signed>, MsfError> {
+        let mut signs: Vec<_> = grid.iter().map(|&(_, lambda)| sign(lambda, self.floor)).collect();
+        let mut start = 0;
+        while let Some(first) = (start..signs.len()).find(|&index| signs[index].is_none()) {
+            let end = (first..signs.len()).find(|&i| signs[i].is_some()).unwrap_or(signs.len());
+            let before = first.checked_sub(1).and_then(|i| signs[i]);
+            let after = signs.get(end).copied().flatten();
+            if before.is_none() || after.is_none() || before == after {
+                for index in first..end {
+                    let again = (self.measure)(&[grid[index].0; PER_ROUND])?;
+                    signs[index] = sign(mean_of(&again), self.floor);
+                }
+            }
+            start = end;
         }
-        for index in doubtful {
-            let again = measure(&[curve.sigma[index]; PER_ROUND])?;
-            let estimate = dynamics::Estimate::from_independent(&again);
-            signs[index] = sign(estimate.mean, estimate.standard_error);
-        }
+        let signed = grid.iter().zip(signs);
+        Ok(signed
+            .filter_map(|(&(sigma, _), negative)| Some(Signed { sigma, negative: negative? }))
+            .collect())
     }
-    Ok(signs)
-}
 
-fn runs_of_doubt(signs: &[Option<bool>]) -> Vec<Range<usize>> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for index in (0..signs.len()).filter(|&index| signs[index].is_none()) {
-        match runs.last_mut() {
-            Some(run) if run.end == index => run.end += 1,
-            _ => runs.push(index..index + 1),
+    /// The zeros between neighbours of opposite sign.
+    pub fn zeros(mut self, certain: &[Signed]) -> Result<Found, MsfError> {
+        let mut zeros = Vec::new();
+        for pair in certain.windows(2).filter(|pair| pair[0].negative != pair[1].negative) {
+            self.zeros_between([pair[0], pair[1]], &mut zeros)?;
         }
+        Ok(Found { zeros, split: self.split })
     }
-    runs
-}
 
-/// Refines the zero in a bracket whose ends have opposite, certain signs.
-///
-/// Each round spreads its exponents over a window about the best estimate. The window shrinks until
-/// the curvature of Λ within it no longer matters, but never below what the noise of the estimate
-/// allows; the line is fitted to all exponents within the window.
-fn refine(
-    bracket: [f64; 2],
-    falling: bool,
-    refinement: &Refinement,
-    measure: &mut impl FnMut(&[f64]) -> Result<Vec<f64>, MsfError>,
-) -> Result<Zero, MsfError> {
-    let [from, to] = bracket;
-    let whole = 0.5 * (to - from);
-    let mut best = Zero { sigma: 0.5 * (from + to), standard_error: whole, falling };
-    let mut window = whole;
-    let mut samples: Vec<(f64, f64)> = Vec::new();
-    for _ in 0..refinement.max_rounds {
-        let (low, high) = ((best.sigma - window).max(from), (best.sigma + window).min(to));
-        let sigmas: Vec<f64> = (0..PER_ROUND)
-            .map(|k| low + (high - low) * (k as f64 + 0.5) / PER_ROUND as f64)
-            .collect();
-        let measured = measure(&sigmas)?;
-        samples.retain(|(sigma, _)| (low..=high).contains(sigma));
-        samples.extend(sigmas.into_iter().zip(measured));
-        match Line::through(&samples).zero(falling).filter(|zero| (from..=to).contains(&zero.sigma))
-        {
-            Some(zero) => best = zero,
-            // Noise hides the slope: look over a wider window.
-            None => {
-                window = (2.0 * window).min(whole);
+    /// Narrows a bracket down, or the several that it turns out to hold, and refines each zero.
+    fn zeros_between(
+        &mut self,
+        bracket: [Signed; 2],
+        zeros: &mut Vec<Zero>,
+    ) -> Result<(), MsfError> {
+        let mut samples = Vec::new();
+        // Narrowed last first, so that zeros come in ascending order.
+        let mut waiting = vec![(bracket, 0)];
+        while let Some((bracket, rounds)) = waiting.pop() {
+            let [from, to] = bracket;
+            let width = to.sigma - from.sigma;
+            let enough = WINDOW * self.refinement.relative_error * 0.5 * (from.sigma + to.sigma);
+            if width <= 2.0 * enough || rounds >= self.refinement.max_rounds {
+                zeros.push(self.refine(bracket, rounds, &mut samples)?);
                 continue;
             }
-        }
-        let target = refinement.relative_error * best.sigma;
-        let narrow = (20.0 * target).max(8.0 * best.standard_error);
-        if best.standard_error <= target && window <= narrow {
-            break;
-        }
-        window = window.min((0.25 * window).max(narrow));
-    }
-    Ok(best)
-}
-
-/// A straight line y = mean + slope (x − centre), with the variances of mean and slope.
-struct Line {
-    centre: f64,
-    mean: f64,
-    slope: f64,
-    variance_of_mean: f64,
-    variance_of_slope: f64,
-}
-
-impl Line {
-    /// Least squares with equal weights; variances from the scatter about the line.
-    fn through(samples: &[(f64, f64)]) -> Self {
-        let n = samples.len() as f64;
-        let centre = samples.iter().map(|(x, _)| x).sum::<f64>() / n;
-        let mean = samples.iter().map(|(_, y)| y).sum::<f64>() / n;
-        let spread: f64 = samples.iter().map(|(x, _)| (x - centre).powi(2)).sum();
-        let slope = samples.iter().map(|(x, y)| (x - centre) * (y - mean)).sum::<f64>() / spread;
-        let residual: f64 =
-            samples.iter().map(|(x, y)| (y - mean - slope * (x - centre)).powi(2)).sum();
-        let variance = residual / (n - 2.0);
-        Self {
-            centre,
-            mean,
-            slope,
-            variance_of_mean: variance / n,
-            variance_of_slope: variance / spread,
-        }
-    }
-
-    /// Where the line crosses zero, if its slope has the sign expected beyond doubt.
-    fn zero(&self, falling: bool) -> Option<Zero> {
-        let certain = self.slope * self.slope > CERTAIN * self.variance_of_slope;
-        (certain && (self.slope < 0.0) == falling).then(|| {
-            let offset = -self.mean / self.slope;
-            let variance = self.variance_of_mean + offset * offset * self.variance_of_slope;
-            Zero {
-                sigma: self.centre + offset,
-                standard_error: variance.sqrt() / self.slope.abs(),
-                falling,
+            let signs = self.look(bracket, &mut samples)?;
+            let narrower: Vec<[Signed; 2]> = signs
+                .windows(2)
+                .filter(|pair| pair[0].negative != pair[1].negative)
+                .map(|pair| [pair[0], pair[1]])
+                .collect();
+            match narrower[..] {
+                // Noise is as wide as the bracket.
+                [[a, b]] if b.sigma - a.sigma > 0.4 * width => {
+                    zeros.push(self.refine([a, b], rounds + 1, &mut samples)?);
+                }
+                _ => waiting.extend(narrower.into_iter().rev().map(|pair| (pair, rounds + 1))),
             }
-        })
+        }
+        Ok(())
     }
+
+    /// The certain signs within a bracket, its ends among them, from one round.
+    fn look(
+        &mut self,
+        [from, to]: [Signed; 2],
+        samples: &mut Vec<Sample>,
+    ) -> Result<Vec<Signed>, MsfError> {
+        let step = (to.sigma - from.sigma) / (COLUMNS + 1) as f64;
+        let sigma = |column: usize| from.sigma + step * (column + 1) as f64;
+        let sigmas: Vec<f64> = (0..PER_ROUND).map(|k| sigma(k / ORBITS)).collect();
+        let measured = (self.measure)(&sigmas)?;
+        samples.extend(sigmas.iter().zip(&measured).map(|(&sigma, lambda)| (sigma, lambda.mean)));
+        let exponents = measured.chunks(ORBITS).enumerate();
+        let columns: Vec<Column<'_>> =
+            exponents.map(|(k, exponents)| Column { sigma: sigma(k), exponents }).collect();
+        self.split = self.split.or_else(|| attractors::split(&columns, self.floor));
+        let variance = columns.iter().map(|c| variance(c.exponents)).sum::<f64>() / COLUMNS as f64;
+        let error = (variance / ORBITS as f64).sqrt();
+        let inside = columns.iter().filter_map(|column| {
+            let estimate = Estimate { standard_error: error, ..mean_of(column.exponents) };
+            let negative = sign(estimate, self.floor)?;
+            Some(Signed { sigma: column.sigma, negative })
+        });
+        Ok([from].into_iter().chain(inside).chain([to]).collect())
+    }
+
+    /// Refines the zero in a bracket, after some rounds that were spent on finding it.
+    ///
+    /// Each round spreads its exponents over a window about the best estimate. The window shrinks to
+    /// what the noise of the estimate allows; what bending may add within it comes from a parabola
+    /// through the samples of a window four times as wide.
+    fn refine(
+        &mut self,
+        [from, to]: [Signed; 2],
+        rounds: usize,
+        samples: &mut Vec<Sample>,
+    ) -> Result<Zero, MsfError> {
+        let falling = to.negative;
+        let whole = 0.5 * (to.sigma - from.sigma);
+        let middle = 0.5 * (from.sigma + to.sigma);
+        let mut best = Zero { sigma: middle, standard_error: whole, falling, refined: false };
+        let mut window = whole;
+        for _ in rounds..self.refinement.max_rounds.max(rounds + 4) {
+            let low = (best.sigma - window).max(from.sigma);
+            let high = (best.sigma + window).min(to.sigma);
+            let sigmas: Vec<f64> = (0..PER_ROUND)
+                .map(|k| low + (high - low) * (k as f64 + 0.5) / PER_ROUND as f64)
+                .collect();
+            let measured = (self.measure)(&sigmas)?;
+            samples.extend(sigmas.into_iter().zip(measured.iter().map(|lambda| lambda.mean)));
+            let within = |half: f64| {
+                let near = samples.iter().filter(|s| (s.0 - best.sigma).abs() <= half);
+                near.copied().collect::<Vec<Sample>>()
+            };
+            let line = Line::through(&within(window * (1.0 + 1e-9)));
+            let zero = line.as_ref().and_then(|line| line.zero(falling));
+            let bracketed = |zero: &Zero| (from.sigma..=to.sigma).contains(&zero.sigma);
+            let Some((line, zero)) = line.zip(zero.filter(bracketed)) else {
+                // Noise hides the slope: look over a wider window.
+                window = (2.0 * window).min(whole);
+                continue;
+            };
+            let bend = curvature(&within(4.0 * window)).map_or(0.0, |q| line.bend(q));
+            let noise = zero.standard_error;
+            best = Zero { standard_error: noise.hypot(bend), ..zero };
+            let target = self.refinement.relative_error * best.sigma;
+            let narrow = WINDOW * target.max(noise);
+            best.refined = best.standard_error <= target && window <= narrow;
+            if best.refined {
+                break;
+            }
+            // Where bending is what is left, the window may shrink to where noise sets the slope.
+            let least = if bend > 0.5 * target { 0.5 * WINDOW * noise } else { narrow };
+            window = window.min((0.25 * window).max(least));
+        }
+        Ok(best)
+    }
+}
+
+fn mean_of(exponents: &[Estimate]) -> Estimate {
+    Estimate::from_independent(&exponents.iter().map(|e| e.mean).collect::<Vec<_>>())
+}
+
+fn variance(exponents: &[Estimate]) -> f64 {
+    mean_of(exponents).standard_error.powi(2) * exponents.len() as f64
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::Estimate;
     use rand_core::Rng;
     use rand_pcg::Pcg64;
 
@@ -219,16 +277,22 @@ mod tests {
             sigmas.iter().map(|&sigma| (self.truth)(sigma) + noise()).collect()
         }
 
-        fn curve(&mut self, sigma: Vec<f64>) -> MasterStability {
-            let error = self.noise / 3f64.sqrt();
-            let lambda = self.measure(&sigma).into_iter();
-            let lambda = lambda.map(|mean| Estimate { mean, standard_error: error }).collect();
-            MasterStability { sigma, lambda, ..MasterStability::default() }
+        fn exponents(&mut self, sigmas: &[f64]) -> Vec<Estimate> {
+            let standard_error = self.noise / 3f64.sqrt();
+            let means = self.measure(sigmas).into_iter();
+            means.map(|mean| Estimate { mean, standard_error }).collect()
         }
 
         fn zeros(&mut self, sigma: Vec<f64>) -> (Vec<Zero>, bool) {
-            let curve = self.curve(sigma);
-            find(&curve, &Refinement::default(), |sigmas| Ok(self.measure(sigmas))).unwrap()
+            let refinement = Refinement::default();
+            let grid = self.exponents(&sigma);
+            let grid: Vec<_> = sigma.into_iter().zip(grid).collect();
+            let measure = |sigmas: &[f64]| Ok(self.exponents(sigmas));
+            let mut finder = Finder { refinement: &refinement, floor: 0.0, measure, split: None };
+            let signs = finder.settle(&grid).unwrap();
+            let found = finder.zeros(&signs).unwrap();
+            assert_eq!(found.split, None);
+            (found.zeros, signs.first().is_some_and(|signed| signed.negative))
         }
     }
 
@@ -280,5 +344,45 @@ mod tests {
             noisy.calls
         };
         assert!(cost(0.1) > 2 * cost(0.01), "{} against {}", cost(0.1), cost(0.01));
+    }
+
+    #[test]
+    fn a_grid_of_one_wide_cell_is_bisected_down_to_the_zero() {
+        // As Lorenz, x into y, seen at 0 and 250: steep near the zero at 8.17, flat far beyond.
+        let truth = |sigma: f64| 1.0 - (sigma / 8.17).powf(1.5).min(4.0);
+        let (zeros, _) = Noisy::new(truth, 0.02).zeros(vec![0.0, 250.0, 500.0]);
+        let [zero] = zeros[..] else { panic!("{zeros:?}") };
+        assert!(zero.refined && zero.standard_error < 0.0082, "{zero:?}");
+        assert!((zero.sigma - 8.17).abs() < 4.0 * zero.standard_error, "{zero:?}");
+    }
+
+    #[test]
+    fn three_zeros_in_one_cell_are_three() {
+        let truth = |sigma: f64| (1.0 - sigma) * (sigma - 3.0) * (sigma - 8.0) / 24.0;
+        let (zeros, _) = Noisy::new(truth, 0.002).zeros(vec![0.0, 10.0]);
+        let at: Vec<f64> = zeros.iter().map(|zero| zero.sigma).collect();
+        assert_eq!(zeros.len(), 3, "{zeros:?}");
+        for (zero, expected) in at.iter().zip([1.0, 3.0, 8.0]) {
+            assert!((zero - expected).abs() < 0.02 * expected, "{zeros:?}");
+        }
+    }
+
+    #[test]
+    fn a_curve_without_noise_that_bends_has_its_zero_within_the_error_it_states() {
+        for power in [0.3, 3.0, 8.0] {
+            let truth = |sigma: f64| 1.0 - (sigma / 2.42616).powf(power);
+            let (zeros, _) = Noisy::new(truth, 1e-7).zeros(vec![0.0, 2.0, 4.0]);
+            let off = (zeros[0].sigma - 2.42616).abs();
+            assert!(zeros[0].refined && off <= 2.0 * zeros[0].standard_error, "{off} {zeros:?}");
+        }
+    }
+
+    #[test]
+    fn a_zero_that_noise_hides_says_that_it_is_not_as_good_as_asked() {
+        let (zeros, _) = Noisy::new(|sigma: f64| 1.0 - sigma, 1.0).zeros(vec![0.0, 3.0, 6.0]);
+        for zero in zeros {
+            assert!(!zero.refined && zero.standard_error > 1e-3 * zero.sigma, "{zero:?}");
+            assert!((zero.sigma - 1.0).abs() < 4.0 * zero.standard_error, "{zero:?}");
+        }
     }
 }

@@ -9,15 +9,15 @@
 
 use std::io::BufWriter;
 
-use clustering::{CascadeTree, TreeCluster};
+use clustering::{CascadeTree, ClusterRule, TreeCluster};
 
 use crate::findings::Findings;
+use crate::place::Folder;
 use crate::plan::Plan;
 use crate::problem::Result;
-use crate::record::Folder;
 use crate::results::number;
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 15] = [
     "cluster",
     "parent",
     "tree",
@@ -30,6 +30,9 @@ const COLUMNS: [&str; 12] = [
     "kind",
     "spread",
     "deviation",
+    "modes_to",
+    "exceeds_threshold",
+    "holds_exact",
 ];
 
 /// Writes the three files.
@@ -62,20 +65,27 @@ fn row(
     of: &TreeCluster,
 ) -> Vec<String> {
     let optional = |value: Option<f64>| value.map_or_else(String::new, number);
-    let modes = findings.cascade[of.states.start].unstable_modes.len();
+    let states = findings.cascade[of.states.clone()].iter();
+    let modes = |end: fn((usize, usize)) -> usize| states.clone().map(move |s| end(s.n_unstable));
+    let is_under_threshold = plan.rule != ClusterRule::Exact;
     vec![
         cluster.to_string(),
         of.parent.map_or_else(String::new, |parent| (first + parent).to_string()),
         tree.to_string(),
         of.size.to_string(),
         plan.network.labels()[of.first_node].clone(),
-        modes.to_string(),
+        modes(|(least, _)| least).min().unwrap_or(0).to_string(),
         number(of.epsilon.0),
         optional(of.epsilon.1),
         optional(of.splits.then_some(of.epsilon.0)),
         of.label.map_or("", |label| label.kind.name()).to_owned(),
         optional(of.label.map(|label| label.spread)),
         optional(of.label.map(|label| label.deviation)),
+        modes(|(_, most)| most).max().unwrap_or(0).to_string(),
+        of.label
+            .filter(|_| is_under_threshold)
+            .map_or_else(String::new, |label| label.exceeds_threshold.to_string()),
+        of.label.map_or_else(String::new, |label| label.n_exact_parts.to_string()),
     ]
 }
 
@@ -86,7 +96,7 @@ fn write_nodes(
     findings: &Findings,
 ) -> std::io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(["tree", "node", "cluster", "alone_below"])?;
+    table.write_record(["tree", "node", "cluster", "alone_below", "exact_with"])?;
     for (number, first, tree) in numbered(findings) {
         let number = number.to_string();
         let texts: Vec<[String; 2]> = tree
@@ -96,15 +106,39 @@ fn write_nodes(
             .map(|(place, cluster)| [(first + place).to_string(), self::number(cluster.epsilon.0)])
             .collect();
         let innermost = tree.innermost(&findings.cascade);
-        for (label, innermost) in plan.network.labels().iter().zip(innermost) {
+        let exact = exact_firsts(tree, findings, &innermost);
+        let labels = plan.network.labels();
+        for ((label, innermost), first) in labels.iter().zip(innermost).zip(exact) {
             let [cluster, splits] = innermost.map_or(["", ""], |place| {
                 let [cluster, splits] = &texts[place];
                 [cluster, if tree.clusters[place].splits { splits } else { "" }]
             });
-            table.write_record([&number[..], label, cluster, splits])?;
+            let first = first.map_or("", |first| &labels[first][..]);
+            table.write_record([&number[..], label, cluster, splits, first])?;
         }
     }
     table.flush()
+}
+
+/// The first node of the exact cluster that holds each node as long as its innermost cluster lasts:
+/// that cluster itself, or a part of it; none where the node is no part of one.
+fn exact_firsts(
+    tree: &CascadeTree,
+    findings: &Findings,
+    innermost: &[Option<usize>],
+) -> Vec<Option<usize>> {
+    let mut firsts = vec![None; innermost.len()];
+    for number in tree.states.clone() {
+        let cells = &findings.cascade[number].cells;
+        let (first_nodes, sizes) = (cells.first_nodes(), cells.sizes());
+        let ends_here = |place: usize| tree.clusters[place].states.end == number + 1;
+        for (node, &cell) in cells.cluster_of().iter().enumerate() {
+            if sizes[cell] > 1 && innermost[node].is_some_and(ends_here) {
+                firsts[node] = Some(first_nodes[cell]);
+            }
+        }
+    }
+    firsts
 }
 
 /// A line for each cluster that came from no other.

@@ -1,16 +1,20 @@
 //! What an experiment will do and cost, in words: `eigensync check`.
 
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 use clustering::ClusterRule;
-use dynamics::lyapunov::{Tangent, Times, master_exponents};
-use dynamics::{Adaptive, AdaptiveOrder, Method, Observables, Schedule, Simulation};
+use dynamics::{Adaptive, AdaptiveOrder, Method};
 use spectra::Spectrum;
 
-use crate::plan::{Plan, Sweep};
-use crate::spec::MatrixKind;
+use crate::drawing;
+use crate::plan::{Memory, Plan, Sweep};
+use crate::spec::{FigureKind, MatrixKind};
+use crate::table::{four_digits, two_digits};
+use crate::trial;
 use crate::warning::Warnings;
+
+/// The largest residual, relative to the eigenvalue, that leaves this certain.
+const CERTAIN: f64 = 0.1;
 
 /// What is unusual about a network, before anything is computed.
 pub fn warn(plan: &Plan, warnings: &mut Warnings) {
@@ -28,31 +32,23 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
         );
         warnings.add("network.isolated_nodes", message);
     }
-    let components = plan.n_components;
-    if components > 1 {
-        let message = format!(
-            "the network has {components} components, so {components} modes have eigenvalue 0 and \
-             no coupling synchronises it globally"
-        );
-        warnings.add("network.components", message);
-    }
 }
 
-/// Where links are too weak beside others to count in the spectrum.
-pub fn warn_of_weak_links(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) {
+/// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
+pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
-    if n_zero > plan.n_components {
-        let network = match plan.n_components {
-            1 => "the network is connected".into(),
-            n => format!("the network has {n} components"),
-        };
-        let message = format!(
-            "{network}, yet {n_zero} modes have eigenvalue 0 up to {:.0e}: links much weaker than \
-             the strongest hold no nodes together here",
-            spectrum.tolerance
-        );
-        warnings.add("spectrum.tolerance", message);
-    }
+    let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate().skip(n_zero);
+    let mut lost = modes.filter(|(_, (lambda, residual))| **residual > CERTAIN * lambda.abs());
+    let Some((mode, (lambda, residual))) = lost.next() else { return };
+    let message = format!(
+        "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
+         the strongest are lost in rounding",
+        mode + 1,
+        four_digits(*lambda),
+        two_digits(*residual),
+        lost.count()
+    );
+    warnings.add("eigenvalues", message);
 }
 
 /// The resolved plan and its cost.
@@ -106,12 +102,13 @@ pub fn describe(plan: &Plan) -> String {
         line(
             "sweep",
             format!(
-                "{} values of epsilon, {} to {}; {} seeds; {}, step {}, transient {}, average {}; \
+                "{} values of epsilon, {} to {}; {} seeds, {} runs; {}, step {}, transient {}, average {}; \
                  synchronised below {}",
                 epsilon.len(),
                 epsilon[0],
                 epsilon[epsilon.len() - 1],
                 sweep.seeds.len(),
+                epsilon.len() * sweep.seeds.len(),
                 method(sweep),
                 schedule.step,
                 schedule.transient,
@@ -120,9 +117,22 @@ pub fn describe(plan: &Plan) -> String {
             ),
         );
     }
+    line("figure", figure(plan));
     line("claims", experiment.claims.len().to_string());
+    line("memory", format!("about {}", Memory::of(plan)));
     line("cost", cost(plan));
     text
+}
+
+/// The kind of the figure, and what it will not show as asked.
+fn figure(plan: &Plan) -> String {
+    let kind = match plan.figure().kind {
+        FigureKind::Sweep => "sweep",
+        FigureKind::Matrices => "matrices",
+        FigureKind::Regions => "regions",
+        FigureKind::None => "none",
+    };
+    std::iter::once(kind.to_owned()).chain(drawing::foreseen(plan)).collect::<Vec<_>>().join("; ")
 }
 
 /// The integrator by the name that experiment files call it.
@@ -137,63 +147,21 @@ fn method(sweep: &Sweep) -> &'static str {
 /// Steps to be done, and the time they will take at the speed of a short trial on this machine.
 fn cost(plan: &Plan) -> String {
     let threads = rayon::current_num_threads() as f64;
-    let msf = plan.msf_steps() as f64 * seconds_per_tangent_step(plan) / threads;
+    let msf = trial::of_msf(plan);
     let mut text = format!("msf {:.1e} tangent steps", plan.msf_steps() as f64);
-    let mut total = msf;
+    let (mut seconds, mut notes) = (msf.seconds, String::new());
+    if msf.escaped {
+        notes.push_str("; the orbit of the msf escapes at once: no time can be told");
+    }
     if let Some(sweep) = &plan.sweep {
         let node_steps = sweep.steps() as f64 * plan.network.n_nodes() as f64;
-        total += sweep.steps() as f64 * seconds_per_step(plan, sweep) / threads;
         write!(text, ", sweep {node_steps:.1e} node steps").expect("a string takes every line");
+        let trial = trial::of_sweep(plan, sweep);
+        seconds += trial.seconds;
+        if trial.escaped {
+            notes.push_str("; in the trial orbits of the sweep escape at once: it may end early");
+        }
     }
-    format!("{text}: about {:.0} s on {threads} thread(s)", total.ceil())
-}
-
-fn seconds_per_tangent_step(plan: &Plan) -> f64 {
-    let times =
-        Times { transient: 0.0, average: 20.0 * plan.msf.times.renormalise, ..plan.msf.times };
-    let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
-    let node = &plan.node;
-    let took = timed(|| {
-        on_one_thread(|| master_exponents(node.model, node.coupling, &times, &tangents, &|_| ()))
-    });
-    took.as_secs_f64() / (16.0 * times.steps() as f64)
-}
-
-fn seconds_per_step(plan: &Plan, sweep: &Sweep) -> f64 {
-    // About two million node steps: a tenth of a second.
-    let n_nodes = plan.network.n_nodes() as f64;
-    let replicas: Vec<_> = sweep.replicas().into_iter().cycle().take(16).collect();
-    let samples = (2e6 / (16.0 * n_nodes)).clamp(20.0, 2000.0);
-    let schedule = Schedule {
-        transient: 0.0,
-        average: samples * sweep.schedule.step,
-        stride: 1,
-        ..sweep.schedule
-    };
-    let simulation = Simulation {
-        model: plan.node.model,
-        coupling: plan.node.coupling,
-        matrix: plan.matrix.matrix(),
-        method: sweep.method,
-        schedule,
-        observables: Observables::default(),
-        kick: sweep.kick,
-        instruction_set: plan.msf.instruction_set,
-    };
-    let took = timed(|| on_one_thread(|| simulation.run(&replicas, &|_| ())));
-    took.as_secs_f64() / (16.0 * schedule.steps() as f64)
-}
-
-fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(work),
-        // Without a pool of its own the trial runs on the common one and comes out too fast.
-        Err(_) => work(),
-    }
-}
-
-fn timed<T>(work: impl FnOnce() -> T) -> Duration {
-    let started = Instant::now();
-    let _ = work();
-    started.elapsed()
+    let seconds = (seconds / threads).ceil();
+    format!("{text}: about {seconds:.0} s on {threads} thread(s){notes}")
 }

@@ -25,6 +25,10 @@ pub struct Claim {
     /// a step of the sweep if that is larger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<f64>,
+    /// Whether the zeros of Λ behind a number are all known as well as was asked for; there only where
+    /// they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refined: Option<bool>,
     pub tolerance: String,
     pub verdict: Verdict,
     /// Why the tolerance is what it is, why a difference is known, or why there is no verdict.
@@ -157,10 +161,27 @@ impl Judge<'_> {
             paper,
             obtained,
             uncertainty: self.uncertainty(),
+            refined: self.is_unrefined().then_some(false),
             tolerance,
             verdict,
             reason,
         })
+    }
+
+    /// Whether a number follows from a zero of Λ that could not be refined.
+    fn is_unrefined(&self) -> bool {
+        let findings = self.findings;
+        match self.spec.of {
+            Quantity::SigmaC => findings.msf.stable.sigma_c().is_some_and(|zero| !zero.refined),
+            Quantity::CriticalCouplings => {
+                let modes = self.spec.at.modes.as_deref().unwrap_or_default();
+                findings.critical.iter().any(|c| modes.contains(&c.mode) && !c.refined)
+            }
+            Quantity::CascadeClusters | Quantity::CascadeOrder => {
+                findings.msf.stable.zeros().any(|zero| !zero.refined)
+            }
+            _ => false,
+        }
     }
 
     fn epsilon(&self) -> &[f64] {

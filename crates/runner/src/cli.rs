@@ -9,10 +9,11 @@ use dynamics::InstructionSet;
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
 use crate::output::{say, tell};
-use crate::plan;
+use crate::place::Place;
+use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, load, predict, record, results, simulated, table};
+use crate::{check, claims, compare, findings, list, predict, results, simulated, table};
 
 /// Predicted states of an experiment beside simulation that are shown; its summary has them all.
 const STATES_SHOWN: usize = 12;
@@ -71,7 +72,7 @@ enum Command {
         #[command(flatten)]
         folders: Folders,
     },
-    /// List experiments with their titles, and whether there are results
+    /// List experiments with their titles, and what there is of their results
     List {
         /// Folder of experiment files
         #[arg(default_value = "experiments")]
@@ -116,16 +117,30 @@ pub fn run(cli: Cli) -> Result<bool> {
                 return Err(Problem::new(message).in_file(&folders.golden).hint(known));
             }
             let ids = if ids.is_empty() { golden } else { ids };
-            compare_all(&ids, &folders)
+            let place = |id: String| (id.clone(), folders.results.join(id));
+            compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden)
         }
-        Command::List { experiments, folders } => list(&experiments, &folders),
+        Command::List { experiments, folders } => {
+            list::list(&experiments, &folders.results).map(|()| true)
+        }
     }
 }
 
+/// More threads than so many for each processor would only wait for one another.
+const THREADS_A_PROCESSOR: usize = 4;
+
 fn use_threads(threads: Option<u16>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
+    let Some(asked) = threads.map(usize::from) else { return Ok(()) };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = asked.min(THREADS_A_PROCESSOR * processors);
+    if threads < asked {
+        tell!(
+            "warning: `--threads {asked}`: {threads} are used, {THREADS_A_PROCESSOR} for each of \
+             {processors} processor(s)"
+        );
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(threads))
+        .num_threads(threads)
         .build_global()
         .map_err(|error| Problem::from_error("the threads cannot be started", error))
 }
@@ -152,24 +167,28 @@ fn run_files(
     for plan in &mut plans {
         plan.msf.instruction_set = instruction_set.unwrap_or(plan.msf.instruction_set);
     }
-    record::check_writable(&folders.results)?;
+    let reserve =
+        |plan: &Plan| Place::reserve(&folders.results, &plan.id, ("run", &plan.file), quick);
+    let places = plans.iter().map(reserve).collect::<Result<Vec<Place>>>()?;
     let mut curves = findings::Curves::default();
     let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
     let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
     let mut states: Vec<table::StateRow> = Vec::new();
-    for plan in &plans {
+    let mut written = Vec::new();
+    for (plan, place) in plans.iter().zip(places) {
         let started = Instant::now();
         let planned = plan.stages.total();
         let took = || planned + started.elapsed();
         let found = findings::find(plan, &mut curves, &plan.stages)?;
         let claims = claims::judge(plan, &found)?;
-        let place = results::write(plan, &found, claims.clone(), took, &folders.results)?;
+        let place = results::write(plan, &found, claims.clone(), took, place)?;
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
         states.extend(state_rows(plan, &found));
-        if plan.figure().kind != FigureKind::Sweep {
+        written.push((plan.id.clone(), place));
+        if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
             let rows = epsilon.into_iter().zip(found.agreement);
             agreements.extend(rows.map(|(epsilon, row)| (plan.id.clone(), epsilon, row)));
@@ -211,13 +230,12 @@ fn run_files(
     for problem in &left_out {
         say!("left out: {problem}");
     }
-    let ids: Vec<String> = plans.iter().map(|plan| plan.id.clone()).collect();
-    let golden = compare_all(&ids, folders)?;
+    let golden = compare_all(&written, &folders.golden)?;
     Ok(golden && count(Verdict::Differs) + count(Verdict::CannotBeJudged) == 0)
 }
 
 /// The first predicted states with clusters, and what the sweep shows of them.
-fn state_rows(plan: &plan::Plan, found: &findings::Findings) -> Vec<table::StateRow> {
+fn state_rows(plan: &Plan, found: &findings::Findings) -> Vec<table::StateRow> {
     let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
     let states = found.cascade.iter().enumerate().filter(|_| has_pairs);
     let row = |(at, state): (usize, &clustering::State)| {
@@ -232,10 +250,11 @@ fn state_rows(plan: &plan::Plan, found: &findings::Findings) -> Vec<table::State
     states.filter_map(row).take(STATES_SHOWN).collect()
 }
 
-fn compare_all(ids: &[String], folders: &Folders) -> Result<bool> {
+/// Compares results, given by name and place, with the golden ones of the same name.
+fn compare_all(results: &[(String, PathBuf)], golden: &Path) -> Result<bool> {
     let mut all_hold = true;
-    for id in ids {
-        let Some(comparison) = compare::compare(id, &folders.results, &folders.golden)? else {
+    for (id, place) in results {
+        let Some(comparison) = compare::compare(place, &golden.join(id))? else {
             say!("{id}: no golden output to compare with");
             continue;
         };
@@ -266,28 +285,6 @@ fn golden_ids(golden: &Path) -> Result<Vec<String>> {
     }
     ids.sort();
     Ok(ids)
-}
-
-fn list(experiments: &Path, folders: &Folders) -> Result<bool> {
-    let entries = std::fs::read_dir(experiments)
-        .map_err(|error| Problem::from_error("cannot be read", error).in_file(experiments))?;
-    let is_toml = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "toml");
-    let mut files: Vec<PathBuf> =
-        entries.flatten().map(|entry| entry.path()).filter(is_toml).collect();
-    files.sort();
-    if files.is_empty() {
-        return Err(Problem::new("holds no experiment files").in_file(experiments));
-    }
-    for file in files {
-        let title = match load::experiment(&file) {
-            Ok((experiment, _)) => experiment.title,
-            Err(problem) => format!("cannot be read: {problem}"),
-        };
-        let id = file.file_stem().unwrap_or_default().to_string_lossy();
-        let done = folders.results.join(id.as_ref()).join("summary.json").exists();
-        say!("{:<40} {}{title}", file.display(), if done { "[results] " } else { "" });
-    }
-    Ok(true)
 }
 
 fn seconds(time: Duration) -> String {

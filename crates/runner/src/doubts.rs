@@ -1,7 +1,7 @@
 //! What must be known beside the errors of a sweep: runs that escaped, nodes that settle by themselves
 //! or are uncoupled, averages over less time than the oscillator needs to come back.
 
-use msf::MasterStability;
+use msf::{Isolated, MasterStability};
 
 use crate::plan::{Plan, Sweep};
 use crate::problem::plain;
@@ -9,8 +9,6 @@ use crate::simulated::Simulated;
 use crate::table::{four_digits, two_digits};
 use crate::warning::Warnings;
 
-/// Standard errors within which Λ(0) is not known to be above zero.
-const CERTAIN: f64 = 4.0;
 /// The least averages and transients, in slow times of the oscillator.
 const LEAST_AVERAGE: f64 = 10.0;
 const LEAST_TRANSIENT: f64 = 2.0;
@@ -61,7 +59,7 @@ pub fn warn_of_runs(msf: &MasterStability, simulated: &Simulated, warnings: &mut
 /// Where neighbouring orbits of one oscillator do not part, nodes may agree without any coupling.
 fn warn_of_rest(msf: &MasterStability, warnings: &mut Warnings) {
     let isolated = msf.isolated;
-    if isolated.mean > CERTAIN * isolated.standard_error {
+    if msf.state == Isolated::Chaotic {
         return;
     }
     let message = format!(

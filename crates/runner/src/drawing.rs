@@ -4,8 +4,12 @@
 
 mod cascade;
 mod pairs;
+mod picture;
+mod room;
 
 pub use pairs::{distance, error_matrix};
+pub use picture::picture;
+pub use room::foreseen;
 
 use crate::figures::{
     Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
@@ -17,13 +21,13 @@ use crate::simulated::{OverSeeds, Simulated};
 use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
 
 /// Resolution of the PNG: what journals ask for.
-pub const DOTS_PER_INCH: f64 = 300.0;
+const DOTS_PER_INCH: f64 = 300.0;
 
 /// Up to this many nodes a network is drawn with its links.
 const DRAWN_NODES: usize = 1000;
 
 /// The figure of the kind that the experiment asks for.
-pub fn figure(plan: &Plan, findings: &Findings) -> Figure {
+fn figure(plan: &Plan, findings: &Findings) -> Figure {
     match (plan.figure().kind, &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
         (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
@@ -129,7 +133,8 @@ fn msf(findings: &Findings) -> LinePanel {
         sigma: msf.sigma.clone(),
         lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),
         standard_error: msf.lambda.iter().map(|lambda| lambda.standard_error).collect(),
-        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+        stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
+        zeros: msf.stable.zeros().map(|zero| zero.sigma).collect(),
     })
 }
 
@@ -137,23 +142,36 @@ fn msf(findings: &Findings) -> LinePanel {
 fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings) -> LinePanel {
     let labels = plan.network.labels();
     let observables = &sweep.observables;
-    let mut series = Vec::new();
-    if observables.clusters.is_empty() {
-        let nodes = (0..labels.len()).filter(|node| Some(*node) != observables.reference);
-        let nodes = nodes.filter(|_| observables.reference.is_some());
-        for (style, node) in nodes.enumerate() {
+    let nodes: Vec<usize> =
+        (0..labels.len()).filter(|node| Some(*node) != observables.reference).collect();
+    let one = |number: usize, style: usize| {
+        if observables.clusters.is_empty() {
+            let node = nodes[number];
             let label = Label::math("δx").subscript(&labels[node]);
-            series.push(curve(plan, label, style, |at| {
+            curve(plan, label, style, |at| {
                 simulated.over_seeds(at, |errors| errors.to_reference[node])
-            }));
+            })
+        } else {
+            let label = Label::math("δx").subscript(&(number + 1).to_string()).superscript("c");
+            curve(plan, label, number, |at| {
+                simulated.over_seeds(at, |errors| errors.within_clusters[number])
+            })
         }
-    }
-    for m in 0..observables.clusters.len() {
-        let label = Label::math("δx").subscript(&(m + 1).to_string()).superscript("c");
-        series.push(curve(plan, label, m, |at| {
-            simulated.over_seeds(at, |errors| errors.within_clusters[m])
-        }));
-    }
+    };
+    let sizes = room::curve_sizes(sweep, labels.len());
+    let room::Curves { named, grey } = room::curves(&sizes);
+    let mut series: Vec<Series> =
+        named.iter().enumerate().map(|(style, &number)| one(number, style)).collect();
+    let muted = |(place, &number): (usize, &usize)| Series {
+        label: match place {
+            0 => Label::text(format!("{} more", sizes.len() - named.len())),
+            _ => Label::default(),
+        },
+        muted: true,
+        spread: None,
+        ..one(number, 0)
+    };
+    series.extend(grey.iter().enumerate().map(muted));
     // A curve of nothing but escapes, or of zeros on a logarithmic scale, has no point to draw.
     let logarithmic = matches!(plan.figure().error_scale, ErrorScale::Log);
     let drawable = |y: &f64| y.is_finite() && (!logarithmic || *y > 0.0);
@@ -226,6 +244,7 @@ fn curve(
     Series {
         label,
         style,
+        muted: false,
         x,
         y: of(&|point| point.mean),
         spread: Some(Spread {

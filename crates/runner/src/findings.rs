@@ -1,7 +1,8 @@
 //! What an experiment found: the stages of a run in order, each from those before it.
 
 use clustering::{
-    CascadeTree, ClusteringError, Partition, State, StateLabels, merge_equal_clusters,
+    CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
+    merge_equal_clusters,
 };
 use dynamics::{DynamicsError, Replica, Run, Schedule};
 use msf::{CriticalCoupling, MasterStability};
@@ -12,14 +13,17 @@ use crate::agreement::{self, Agreement};
 use crate::check;
 use crate::doubts;
 use crate::plan::{Plan, Sweep};
+use crate::prediction::Known;
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::{Seen, Simulated};
+use crate::stability;
 use crate::step_effect::{Probe, StepEffect};
+use crate::synchrony::{Evidence, Synchrony};
 use crate::warning::{Warning, Warnings};
 
-/// Total weights of the nodes of a cluster that differ by no more, relative to their strength, differ
-/// by rounding.
+/// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
+/// differ by rounding.
 pub const EQUITABLE: f64 = 1e-9;
 
 /// Clusters of fewer nodes are in no tree: a million single nodes tell nothing.
@@ -30,6 +34,8 @@ pub struct Findings {
     pub spectrum: Spectrum,
     pub msf: MasterStability,
     pub critical: Vec<CriticalCoupling>,
+    /// Whether, and where, all nodes synchronise.
+    pub synchrony: Synchrony,
     /// Predicted states, from large ε down; neighbours differ in their clusters.
     pub cascade: Vec<State>,
     /// Of each of these states.
@@ -77,21 +83,32 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     };
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
+    plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
     let msf = curves.of(plan, stages)?;
     doubts::warn_of_short_times(plan, &mut warnings);
-    let stable = msf.stable_region();
-    let request = plan.spectrum.request(&stable).map_err(|problem| problem.in_file(&plan.file))?;
+    stability::warn(plan, &msf, &mut warnings);
+    let stable = &msf.stable;
+    let n_nodes = plan.network.n_nodes();
+    let request = plan.spectrum.request(stable, n_nodes);
     let spectrum = stages
         .told("spectrum", |tell| {
             spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
         })
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
-    check::warn_of_weak_links(plan, &spectrum, &mut warnings);
-    let critical = msf::critical_couplings(&msf, &spectrum.eigenvalues, spectrum.tolerance);
+    check::warn_of_weak_links(&spectrum, &mut warnings);
+    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
+    let fastest = fastest(plan, &spectrum, &mut warnings);
+    let known = Known { spectrum: &spectrum, fastest };
+    if let Some(top) = known.top(stable) {
+        warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
+    }
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
         .measured("clusters", n_states, |progress| {
-            clustering::cascade_reported(&spectrum, &stable, plan.rule, progress)
+            let mut states = known.states(stable, plan.rule, progress)?;
+            let matrix = plan.matrix.matrix().view();
+            hold_against_links(&mut states, &spectrum, matrix, plan.rule, EQUITABLE)?;
+            Ok(states)
         })
         .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
@@ -109,10 +126,18 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
             .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
         None => Vec::new(),
     };
+    let synchrony = Synchrony::of(&Evidence {
+        known,
+        stable,
+        critical: &critical,
+        states: &states,
+        n_components: plan.n_components,
+        looked_to: msf.sigma[msf.sigma.len() - 1],
+    });
     let cascade = merge_equal_clusters(&states);
-    drop(states);
-    let labels = labels(plan, &spectrum, &cascade, stages)
+    let labels = labels(plan, &spectrum, &cascade, &states, stages)
         .map_err(|error| failed("the clusters cannot be labelled", &error))?;
+    drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
@@ -123,11 +148,37 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         spectrum,
         msf,
         critical,
+        synchrony,
         simulated,
         step_effects,
         agreement,
         warnings,
     })
+}
+
+/// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
+fn fastest(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) -> Option<f64> {
+    if spectrum.eigenvalues.len() == plan.network.n_nodes() {
+        return spectrum.eigenvalues.last().copied();
+    }
+    match spectra::smallest_eigenvalue(&plan.matrix) {
+        Ok(lambda) => Some(lambda),
+        Err(error) => {
+            warnings.add("global_synchrony", format!("λ_N is not known: {error}"));
+            None
+        }
+    }
+}
+
+/// What is not predicted from a part of the modes, and what would be needed for it.
+fn beyond(plan: &Plan, computed: usize, top: f64) -> String {
+    format!(
+        "the stable set has an upper end, and {computed} of {} modes were computed: above epsilon = {} \
+         the fastest modes may be unstable, and nothing is predicted there. `spectrum.modes = \"all\"` \
+         decides it",
+        plan.network.n_nodes(),
+        plain(top)
+    )
 }
 
 fn advanced(advance: spectra::Advance) -> String {
@@ -152,17 +203,19 @@ fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {
 fn labels(
     plan: &Plan,
     spectrum: &Spectrum,
-    states: &[State],
+    cascade: &[State],
+    stretches: &[State],
     stages: &Stages,
 ) -> std::result::Result<Vec<StateLabels>, ClusteringError> {
-    let matrix = plan.matrix.matrix().view();
-    stages.measured("labels", states.len() as u64, |progress| {
+    let (matrix, rule) = (plan.matrix.matrix().view(), plan.rule);
+    stages.measured("labels", cascade.len() as u64, |progress| {
         let of = |state: &State| {
-            let labels = StateLabels::of(state, spectrum, matrix, EQUITABLE);
+            let stretches = state.stretches(stretches);
+            let labels = StateLabels::of(state, stretches, spectrum, matrix, rule, EQUITABLE);
             progress(1);
             labels
         };
-        states.par_iter().map(of).collect()
+        cascade.par_iter().map(of).collect()
     })
 }
 
@@ -237,7 +290,7 @@ fn runs(
 impl Findings {
     /// The clusters predicted at a coupling strength; none where the prediction does not reach.
     pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
-        self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &state.clusters)
+        self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
     }
 
     /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never are

@@ -1,10 +1,12 @@
 //! Reading an experiment file, with errors that name line, column, key and the nearest known key.
 
+use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
+use crate::files;
 use crate::problem::{Problem, Result, nearest};
 use crate::spec::Experiment;
 
@@ -18,6 +20,9 @@ pub fn experiment(path: &Path) -> Result<(Experiment, serde_json::Value)> {
 
 /// The text of a file as of [`experiment`].
 pub fn parse(text: &str, path: &Path) -> Result<(Experiment, serde_json::Value)> {
+    if let Ok(document) = DeTable::parse(text) {
+        refuse_lists(document.get_ref(), "", text, path)?;
+    }
     let parsed = toml::from_str(text).and_then(|spec| Ok((spec, toml::from_str(text)?)));
     parsed.map_err(|error: toml::de::Error| {
         let span = error.span().unwrap_or(0..0);
@@ -32,18 +37,87 @@ pub fn parse(text: &str, path: &Path) -> Result<(Experiment, serde_json::Value)>
     })
 }
 
+/// Whether the value of a key is a table with keys of its own. `*` stands for any name.
+const TABLES: [&str; 19] = [
+    "network",
+    "network.file",
+    "network.file.attributes",
+    "network.communities",
+    "network.hierarchical",
+    "groups",
+    "groups.ranges",
+    "groups.file",
+    "regions",
+    "oscillator",
+    "oscillator.*",
+    "coupling",
+    "spectrum",
+    "msf",
+    "prediction",
+    "sweep",
+    "figure",
+    "claims",
+    "claims.*",
+];
+
+/// Refuses a list in place of a table: the parser would take its values for those of the keys, in
+/// their order, which nobody who reads the file knows.
+fn refuse_lists(table: &DeTable<'_>, above: &str, text: &str, path: &Path) -> Result<()> {
+    for (key, value) in table.iter() {
+        let name = if above.is_empty() {
+            key.get_ref().to_string()
+        } else {
+            format!("{above}.{}", key.get_ref())
+        };
+        match value.get_ref() {
+            DeValue::Array(_) if is_table(&name) => {
+                let problem =
+                    Problem::new(format!("`{name}` is a list, but must be a table: [{name}]"));
+                return Err(problem.at(place(path, text, value.span().start)));
+            }
+            DeValue::Table(inner) => refuse_lists(inner, &name, text, path)?,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn is_table(name: &str) -> bool {
+    let parent = name.split_once('.').map(|(parent, _)| parent);
+    let is_where = parent == Some("claims") && name.ends_with(".where");
+    let named = |table: &&str| match table.strip_suffix(".*") {
+        Some(above) => parent == Some(above) && name[above.len() + 1..].find('.').is_none(),
+        None => *table == name,
+    };
+    is_where || TABLES.iter().any(named)
+}
+
+/// Longest experiment file, in bytes: some hundred times the longest that anybody wrote.
+const MOST_BYTES: u64 = 16 << 20;
+
 fn read(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|error| match error.kind() {
+    let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => Problem::new("there is no such file")
             .in_file(path)
             .hint("`eigensync list` shows the experiments there are"),
-        std::io::ErrorKind::IsADirectory => {
-            Problem::new("is a folder, expected an experiment file")
-                .in_file(path)
-                .hint(format!("`eigensync list {}` shows the experiments in it", path.display()))
-        }
         _ => Problem::from_error("the file cannot be read", error).in_file(path),
-    })?;
+    };
+    let kind = files::kind(path).map_err(failed)?;
+    if kind == "a folder" {
+        return Err(Problem::new("is a folder, expected an experiment file")
+            .in_file(path)
+            .hint(format!("`eigensync list {}` shows the experiments in it", path.display())));
+    }
+    if kind != files::REGULAR {
+        return Err(Problem::new(format!("is {kind}, expected {}", files::REGULAR)).in_file(path));
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let message = format!("has more than {MOST_BYTES} bytes, expected an experiment file");
+        return Err(Problem::new(message).in_file(path));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let byte = error.as_bytes()[valid];

@@ -21,16 +21,24 @@ pub(crate) use tell;
 /// Whether something could not be said on standard output to a reader who is still there.
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line on standard output.
+/// Longest line that is printed, in characters: beyond it nobody reads.
+const MOST_CHARS: usize = 2000;
+/// Longest word of a message, in characters, and how much is left of a longer one.
+const LONGEST_WORD: usize = 300;
+const OF_LONG_WORD: usize = 100;
+/// Most lines of a message.
+const MOST_LINES: usize = 60;
+
+/// Prints a line, or several, on standard output.
 pub fn line(text: Arguments<'_>) {
     let text = text.to_string();
-    keep_track(writeln!(std::io::stdout(), "{}", printable(&text)));
+    let lines: Vec<_> = text.split('\n').map(|line| cut(line, MOST_CHARS)).collect();
+    keep_track(writeln!(std::io::stdout(), "{}", printable(&lines.join("\n"))));
 }
 
-/// Prints a line on standard error; there is nobody to tell if that fails.
+/// Prints a message on standard error; there is nobody to tell if that fails.
 pub fn note(text: Arguments<'_>) {
-    let text = text.to_string();
-    let _ = writeln!(std::io::stderr(), "{}", printable(&text));
+    let _ = writeln!(std::io::stderr(), "{}", printable(&readable(&text.to_string())));
 }
 
 /// Whether all that was said on standard output has arrived, or its reader has gone.
@@ -45,10 +53,10 @@ fn keep_track(result: std::io::Result<()>) {
     }
 }
 
-/// A text whose control characters, but for ends of lines and tabs, are written out: names and titles
-/// come from files, and a terminal obeys what it is sent.
+/// A text whose commands to the terminal are written out: names and titles come from files, and a
+/// terminal obeys what it is sent.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    let obeyed = |c: char| c.is_control() && c != '\n' && c != '\t';
+    let obeyed = |c: char| is_command(c) && c != '\n' && c != '\t';
     if !text.contains(obeyed) {
         return Cow::Borrowed(text);
     }
@@ -63,6 +71,46 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
+/// Whether a character is not shown but obeyed: control characters, and those that turn the direction
+/// of the text after them, so that it reads as something else (Unicode Standard Annex 9).
+pub fn is_command(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let breaks = matches!(c, '\u{2028}' | '\u{2029}');
+    c.is_control() || turns || breaks
+}
+
+/// A message of a length that is read: names come from files and may have megabytes.
+pub fn readable(text: &str) -> String {
+    let mut lines: Vec<String> = text.split('\n').take(MOST_LINES).map(readable_line).collect();
+    if text.split('\n').nth(MOST_LINES).is_some() {
+        lines.push("…".into());
+    }
+    lines.join("\n")
+}
+
+fn readable_line(line: &str) -> String {
+    let mut short = String::new();
+    for word in line.split_inclusive(' ') {
+        match word.char_indices().nth(LONGEST_WORD) {
+            Some(_) => short.push_str(&format!("{}… ", start(word, OF_LONG_WORD))),
+            None => short.push_str(word),
+        }
+    }
+    cut(short.trim_end_matches(' '), MOST_CHARS).into_owned()
+}
+
+fn cut(line: &str, most: usize) -> Cow<'_, str> {
+    match line.char_indices().nth(most) {
+        Some(_) => Cow::Owned(format!("{}…", start(line, most))),
+        None => Cow::Borrowed(line),
+    }
+}
+
+/// The first characters of a text.
+fn start(text: &str, n_chars: usize) -> &str {
+    text.char_indices().nth(n_chars).map_or(text, |(end, _)| &text[..end])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,5 +119,15 @@ mod tests {
     fn control_characters_are_written_out() {
         assert_eq!(printable("ε\tx\n"), "ε\tx\n");
         assert_eq!(printable("\u{1b}[2J\u{9b}1m\r"), "\\u{1b}[2J\\u{9b}1m\\u{d}");
+        assert_eq!(printable("a\u{202e}b\u{2066}"), "a\\u{202e}b\\u{2066}");
+    }
+
+    #[test]
+    fn messages_of_megabytes_are_cut_and_keep_their_hints() {
+        let text = readable(&format!("key `{}` is bad\nhint: none", "k".repeat(1_000_000)));
+        assert!(text.starts_with("key `kkk") && text.ends_with("… is bad\nhint: none"), "{text}");
+        assert!(text.len() < 200);
+        assert!(readable(&"word ".repeat(100_000)).len() < 2100);
+        assert_eq!(readable(&"line\n".repeat(100_000)).lines().count(), MOST_LINES + 1);
     }
 }

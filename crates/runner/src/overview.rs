@@ -1,16 +1,20 @@
 //! A prediction in words: the network, its leading modes, the stable set, the cascade of states, which
 //! of their clusters are exact, and what it all took.
 
+mod exactness;
+
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
+use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
-use crate::findings::{EQUITABLE, Findings};
+use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
+use crate::stability::with_error;
 use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
@@ -27,10 +31,12 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("network", network(plan));
     line("modes", modes(findings));
     line("lambda", lambda(findings));
+    line("isolated", isolated(findings));
     line("stable for", stable(findings));
+    line("verdict", findings.synchrony.verdict.clone());
     line("", String::new());
     text.push_str(&cascade(plan, findings));
-    text.push_str(&exactness(findings));
+    text.push_str(&exactness::of(plan, findings));
     writeln!(text, "\n{}", cost(plan)).expect("a string takes every line");
     text
 }
@@ -76,20 +82,48 @@ fn lambda(findings: &Findings) -> String {
     abridged(values.map(|&value| four_digits(value)))
 }
 
-fn stable(findings: &Findings) -> String {
-    let intervals = findings.msf.stable_region().intervals;
-    if intervals.is_empty() {
-        return "no sigma that was looked at: nothing is predicted to synchronise".into();
-    }
-    if let Some(zero) = findings.msf.sigma_c() {
-        let error = two_digits(zero.standard_error);
-        return format!("sigma > {} ± {error}", four_digits(zero.sigma));
-    }
-    let interval = |interval: &msf::Interval| match interval.to {
-        Some(to) => format!("{} < sigma < {}", four_digits(interval.from), four_digits(to)),
-        None => format!("sigma > {}", four_digits(interval.from)),
+/// Λ(0) and what it says.
+fn isolated(findings: &Findings) -> String {
+    let isolated = findings.msf.isolated;
+    let says = match findings.msf.state {
+        Isolated::Chaotic => "chaotic",
+        Isolated::Periodic => "periodic, 0 within its errors",
+        Isolated::AtRest => "at rest, nodes become equal without coupling",
     };
-    intervals.iter().map(interval).collect::<Vec<_>>().join(", ")
+    format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
+}
+
+fn stable(findings: &Findings) -> String {
+    let MasterStability { stable, sigma, .. } = &findings.msf;
+    let looked = format!(
+        "looked at from {} to {}",
+        four_digits(sigma[0]),
+        four_digits(sigma[sigma.len() - 1])
+    );
+    if stable.intervals.is_empty() {
+        return format!("no sigma that was {looked}: nothing is predicted to synchronise");
+    }
+    let intervals: Vec<String> = stable.intervals.iter().map(interval).collect();
+    let beyond = if stable.is_unbounded() { ", and taken to be stable beyond" } else { "" };
+    format!("{} ({looked}{beyond})", intervals.join(", "))
+}
+
+fn interval(Interval { from, to }: &Interval) -> String {
+    match to {
+        End::Looked { .. } => format!("sigma > {}", end(from)),
+        _ => format!("{} < sigma < {}", end(from), end(to)),
+    }
+}
+
+fn end(end: &End) -> String {
+    match end {
+        End::Zero(zero) if zero.refined => with_error(zero.sigma, zero.standard_error),
+        End::Zero(zero) => {
+            format!("{} (not as good as asked)", with_error(zero.sigma, zero.standard_error))
+        }
+        End::Origin { .. } => "0".into(),
+        End::Looked { sigma } => format!("{} (the end of the look)", four_digits(*sigma)),
+    }
 }
 
 fn cascade(plan: &Plan, findings: &Findings) -> String {
@@ -113,42 +147,21 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
         let computed = findings.spectrum.eigenvalues.len();
+        let n_nodes = plan.network.n_nodes();
         let why = match findings.spectrum.cutoff {
-            Some(_) => "down to which unstable modes were asked for".to_owned(),
-            None => format!("where mode {computed} becomes unstable, the last one computed"),
+            _ if computed == n_nodes => {
+                "below which a mode comes to a sigma that was not looked at".to_owned()
+            }
+            Some(_) => {
+                format!("down to which unstable modes of {} were asked for", grouped(n_nodes))
+            }
+            None => format!(
+                "where mode {computed} of {} becomes unstable, the last one computed",
+                grouped(n_nodes)
+            ),
         };
-        writeln!(
-            text,
-            "The states end at epsilon = {}, {why}, of {}.",
-            four_digits(last.epsilon.0),
-            grouped(plan.network.n_nodes())
-        )
-        .expect("a string takes every line");
-    }
-    text
-}
-
-/// What `exact` means here, and how far the clusters that are not are from it.
-fn exactness(findings: &Findings) -> String {
-    let largest = |of: fn(&StateLabels) -> f64| findings.labels.iter().map(of).fold(0.0, f64::max);
-    let tolerance = largest(|labels| labels.exact_tolerance);
-    let mut text = format!(
-        "\nexact: equal within {} in all unstable modes, and within {EQUITABLE:e} in the total weights \
-         to every cluster\n",
-        two_digits(tolerance)
-    );
-    let kinds = findings.labels.iter().flat_map(|state| &state.labels);
-    let approximate = kinds.filter(|label| label.kind == ClusterKind::Approximate);
-    let worst = approximate.map(|label| (label.spread, label.deviation));
-    if let Some((spread, deviation)) = worst.reduce(|a, b| (a.0.max(b.0), a.1.max(b.1))) {
-        writeln!(
-            text,
-            "the other clusters are approximate: their nodes are up to {} apart in the unstable \
-             modes, their total weights differ by up to {} of a node's strength",
-            two_digits(spread),
-            two_digits(deviation)
-        )
-        .expect("a string takes every line");
+        writeln!(text, "The states end at epsilon = {}, {why}.", four_digits(last.epsilon.0))
+            .expect("a string takes every line");
     }
     text
 }
@@ -182,7 +195,10 @@ fn row(state: &State, labels: &StateLabels) -> [String; 6] {
     }
     [
         epsilon,
-        grouped(state.unstable_modes.len()),
+        match state.n_unstable {
+            (least, most) if least == most => grouped(least),
+            (least, most) => format!("{} to {}", grouped(least), grouped(most)),
+        },
         grouped(sizes.len()),
         grouped(labels.count(ClusterKind::Exact)),
         largest.join(" + "),

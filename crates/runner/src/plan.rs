@@ -2,10 +2,14 @@
 //! checked, so that nothing can go wrong later for a reason that could have been seen now.
 
 mod claims;
+mod effects;
+mod memory;
 mod network;
 mod numbers;
+mod ranges;
 mod source;
 mod spectrum;
+mod step;
 
 use std::path::{Path, PathBuf};
 
@@ -15,15 +19,19 @@ use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Re
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
+pub use memory::Memory;
 pub use network::nodes_named;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
+use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
+use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
     Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
+use crate::warning::Warning;
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
@@ -37,6 +45,8 @@ pub struct Plan {
     pub id: String,
     /// The file itself.
     pub file: PathBuf,
+    /// The text that is kept with the results, where the file itself is nowhere.
+    pub kept: Option<String>,
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
@@ -54,6 +64,8 @@ pub struct Plan {
     pub msf: msf::Request,
     pub rule: ClusterRule,
     pub sweep: Option<Sweep>,
+    /// What is doubtful about it, though it can be done.
+    pub doubts: Vec<Warning>,
     /// The stages of the run, that of reading the network already taken.
     pub stages: Stages,
 }
@@ -118,16 +130,19 @@ pub fn plan(file: &Path, quick: bool) -> Result<Plan> {
     of(crate::load::experiment(file)?, file, quick, Stages::new(&id(file)?))
 }
 
+/// The hash of the plan that [`plan`] would make, for which the network is all that must be read.
+pub fn hash(file: &Path, quick: bool) -> Result<String> {
+    let (experiment, written) = crate::load::experiment(file)?;
+    let (shortened, stages) = (shortening(quick), Stages::default());
+    let checker =
+        Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
+    let (network, _) = checker.network()?;
+    Ok(plan_hash(&written, shortened, &links_hash(&network)))
+}
+
 /// The same for the text of an experiment file that would be called so, after some stages.
 pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<Plan> {
     of(crate::load::parse(text, file)?, file, quick, stages)
-}
-
-/// What the results of an experiment file are called: its name without the ending.
-pub fn id(file: &Path) -> Result<String> {
-    file.file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned())
-        .ok_or_else(|| Problem::new("the file has no name to call its results by").in_file(file))
 }
 
 fn of(
@@ -136,8 +151,10 @@ fn of(
     quick: bool,
     stages: Stages,
 ) -> Result<Plan> {
-    let shortened = if quick { QUICK } else { 1.0 };
-    let checker = Checker { file, experiment: &experiment, shortened, stages: &stages };
+    let shortened = shortening(quick);
+    let checker =
+        Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
+    checker.effects()?;
     let (network, preparation) = checker.network()?;
     let (n_components, matrix) = stages.unmeasured("preparation", || {
         let n_components = network.components().len();
@@ -145,13 +162,14 @@ fn of(
     });
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
-    let plan = Plan {
+    let mut plan = Plan {
         spectrum: checker.spectrum(network.n_nodes())?,
-        msf: checker.msf(node.coupling)?,
-        rule: checker.rule()?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, &matrix, node)).transpose()?,
+        msf: checker.msf()?,
+        rule: checker.rule(network.n_nodes())?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
+        kept: None,
         shortened,
         network,
         n_components,
@@ -159,18 +177,27 @@ fn of(
         matrix,
         node,
         experiment: experiment.clone(),
-        written,
+        written: written.clone(),
+        doubts: Vec::new(),
         stages: Stages::default(),
     };
+    plan.doubts = checker.steps(&plan)?;
     checker.regions(&plan.network)?;
-    checker.figure(&plan.network)?;
+    checker.figure(&plan.network, &plan.spectrum)?;
     checker.claims(&plan)?;
+    Memory::of(&plan).affordable().map_err(|problem| problem.in_file(file))?;
     Ok(Plan { stages, ..plan })
+}
+
+fn shortening(quick: bool) -> f64 {
+    if quick { QUICK } else { 1.0 }
 }
 
 struct Checker<'a> {
     file: &'a Path,
     experiment: &'a Experiment,
+    /// The same as a document, defaults left out.
+    written: &'a Value,
     shortened: f64,
     stages: &'a Stages,
 }
@@ -189,23 +216,23 @@ impl Checker<'_> {
 
     fn node(&self) -> Result<msf::Node> {
         let (model, spec) = (self.experiment.oscillator, &self.experiment.coupling);
-        self.finite_parameters(model)?;
+        self.parameters(model)?;
         let from = self.component("coupling.from", &spec.from, model)?;
         let to = self.component("coupling.to", &spec.to, model)?;
         Ok(msf::Node { model, coupling: Coupling { from, to } })
     }
 
-    fn finite_parameters(&self, model: Model) -> Result<()> {
+    fn parameters(&self, model: Model) -> Result<()> {
         let parameters = serde_json::to_value(model).unwrap_or_default();
         let parameters = parameters[model.name()].as_object().into_iter().flatten();
-        // JSON has no word for what is not finite, so that it comes out as null.
-        match parameters.into_iter().find(|(_, value)| value.is_null()) {
-            None => Ok(()),
-            Some((name, _)) => {
-                let key = format!("oscillator.{}.{name}", model.name());
-                Err(self.problem(&key, "must be finite"))
+        parameters.into_iter().try_for_each(|(name, value)| {
+            let key = format!("oscillator.{}.{name}", model.name());
+            match value.as_f64() {
+                Some(value) => self.parameter_range(&key, value),
+                // JSON has no word for what is not finite, so that it comes out as null.
+                None => Err(self.problem(&key, "must be finite")),
             }
-        }
+        })
     }
 
     fn component(&self, key: &str, name: &str, model: Model) -> Result<usize> {
@@ -226,7 +253,7 @@ impl Checker<'_> {
         })
     }
 
-    fn msf(&self, coupling: Coupling) -> Result<msf::Request> {
+    fn msf(&self) -> Result<msf::Request> {
         let spec = &self.experiment.msf;
         let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
         self.not_negative("msf.sigma", sigma[0])?;
@@ -243,15 +270,15 @@ impl Checker<'_> {
             average: spec.average / self.shortened,
             renormalise: spec.renormalise,
         };
-        let largest = sigma[sigma.len() - 1];
-        self.stable_rk4("msf", "`msf.sigma`", largest, (coupling, spec.step))?;
         let exponents = sigma.len() as f64;
         self.feasible("msf", exponents * (times.transient + times.average) / times.step)?;
+        self.msf_ranges()?;
         Ok(msf::Request {
             sigma,
             times,
             refinement: msf::Refinement {
-                relative_error: spec.relative_error,
+                // Shorter averages are for a first look, with larger errors.
+                relative_error: spec.relative_error * self.shortened.sqrt(),
                 ..msf::Refinement::default()
             },
             seed: self.experiment.seed,
@@ -259,33 +286,22 @@ impl Checker<'_> {
         })
     }
 
-    fn rule(&self) -> Result<ClusterRule> {
+    fn rule(&self, n_nodes: usize) -> Result<ClusterRule> {
         match self.experiment.prediction.threshold {
             ThresholdSpec::Exact => Ok(ClusterRule::Exact),
             ThresholdSpec::Within(threshold) => {
                 self.positive("prediction.threshold", threshold)?;
+                self.threshold_range(threshold, n_nodes)?;
                 Ok(ClusterRule::Threshold(threshold))
             }
         }
     }
 
-    fn sweep(
-        &self,
-        spec: &SweepSpec,
-        network: &Network,
-        matrix: &CouplingMatrix,
-        node: msf::Node,
-    ) -> Result<Sweep> {
+    fn sweep(&self, spec: &SweepSpec, network: &Network, node: msf::Node) -> Result<Sweep> {
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
         let schedule = self.schedule(spec, epsilon[0])?;
         let pairs = network.n_nodes() <= ALL_PAIRS;
         self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
-        let method = self.method(spec);
-        if method == Method::Rk4 {
-            let fastest = epsilon[epsilon.len() - 1] * largest_diagonal(matrix);
-            let what = "`sweep.epsilon` times the strength of the strongest node";
-            self.stable_rk4("sweep", what, fastest, (node.coupling, spec.step))?;
-        }
         let component = match &spec.component {
             Some(name) => self.component("sweep.component", name, node.model)?,
             None => 0,
@@ -299,11 +315,12 @@ impl Checker<'_> {
             clusters.push((0..network.n_nodes()).collect());
         }
         self.bound("sweep.synchronised_below", spec.synchronised_below, pairs)?;
+        self.sweep_ranges(spec)?;
         let first = self.experiment.seed;
         Ok(Sweep {
             epsilon,
             seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
-            method,
+            method: self.method(spec),
             schedule,
             observables: Observables { component, pairs, reference, clusters },
             synchronised_below: spec.synchronised_below,
@@ -345,11 +362,6 @@ impl Checker<'_> {
             MethodKind::Dop853 => adaptive(AdaptiveOrder::Eight),
         }
     }
-}
-
-/// max_i |w_ii| ≤ |λ_N|: no mode is damped faster than ε|λ_N|, and one is at least this fast.
-fn largest_diagonal(matrix: &CouplingMatrix) -> f64 {
-    matrix.symmetric().diag_iter().flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 
 /// The part of the specification that says what the figure shows.

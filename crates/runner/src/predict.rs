@@ -11,10 +11,12 @@ use dynamics::lyapunov::Times;
 use toml::{Table, Value, toml};
 
 use crate::output::say;
+use crate::place::{self, Place};
+use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result, nearest};
 use crate::progress::Stages;
-use crate::spec::{Format, MatrixKind};
-use crate::{findings, overview, plan, record, results};
+use crate::spec::{Format, MatrixKind, ModesSpec};
+use crate::{findings, load, overview, results};
 
 /// Points of the curve Λ(σ).
 const SIGMA_POINTS: i64 = 65;
@@ -37,9 +39,11 @@ pub struct Args {
     /// Coupling matrix
     #[arg(long, value_enum, default_value_t = MatrixKind::Normalized)]
     matrix: MatrixKind,
-    /// Leading modes to compute; the cascade reaches down to where the last of them becomes unstable
-    #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
-    modes: u32,
+    /// Modes to compute: `all`, or how many leading ones; the cascade reaches down to where the last of
+    /// them becomes unstable. `auto` computes all where the stable set has an upper end and the network
+    /// has up to 5000 nodes, else 20
+    #[arg(long, value_name = "M", default_value = "auto", value_parser = modes)]
+    modes: ModesSpec,
     /// Instead of a number of modes: all that are unstable at this coupling strength, so that the
     /// cascade reaches down to it
     #[arg(long, value_name = "EPSILON", conflicts_with = "modes")]
@@ -78,62 +82,95 @@ pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
     // As if the file lay beside the network, whose name the results have.
     let file = args.network.with_extension("toml");
-    let stages = Stages::new(&plan::id(&file)?);
-    let text = experiment(args, &stages)?;
-    record::check_writable(&args.results)?;
+    let id = place::id(&args.network)?;
+    let stages = Stages::new(&id);
+    let mut document = experiment(args)?;
+    let made_from = ("predict", &*args.network);
+    let place = Place::reserve(&args.results, &id, made_from, args.quick)?;
+    let sigma = table([
+        ("from", 0.0.into()),
+        ("to", reach(args, &stages)?.into()),
+        ("points", SIGMA_POINTS.into()),
+    ]);
+    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
     let of_network = |problem: Problem| problem.renamed(&file, &args.network);
-    let plan = plan::of_text(&text, &file, args.quick, stages).map_err(of_network)?;
+    let mut plan =
+        plan::of_text(&text(&document)?, &file, args.quick, stages).map_err(of_network)?;
+    keep(&mut plan, document, &place.origin().file)?;
     let found = findings::find(&plan, &mut findings::Curves::default(), &plan.stages)
         .map_err(of_network)?;
     let took = || started.elapsed();
-    let place = results::write(&plan, &found, Vec::new(), took, &args.results)?;
-    keep_experiment(&text, &place)?;
+    let place = results::write(&plan, &found, Vec::new(), took, place)?;
     say!("{}", overview::of(&plan, &found).trim_end());
     say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
-    say!("the same as an experiment file: {}", place.join(EXPERIMENT).display());
+    say!("the same as an experiment file: {}", place.join(results::EXPERIMENT).display());
     Ok(())
+}
+
+/// A number of modes, or the word for one.
+fn modes(text: &str) -> std::result::Result<ModesSpec, String> {
+    match (text, text.parse::<u64>()) {
+        ("all", _) => Ok(ModesSpec::All),
+        ("auto", _) => Ok(ModesSpec::Auto),
+        (_, Ok(modes)) if modes > 0 => Ok(ModesSpec::Leading(modes)),
+        _ => Err("expected `all`, `auto` or a number above zero".into()),
+    }
 }
 
 fn spectrum(args: &Args) -> Value {
     let modes = match args.unstable_at {
         Some(epsilon) => table([("unstable_at", epsilon.into())]),
-        None => i64::from(args.modes).into(),
+        None => match args.modes {
+            ModesSpec::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
+            ModesSpec::All => "all".into(),
+            _ => "auto".into(),
+        },
     };
     let mut spectrum = toml::Table::from_iter([("modes".to_owned(), modes)]);
     spectrum.extend(args.tolerance.map(|tolerance| ("tolerance".to_owned(), tolerance.into())));
     spectrum.into()
 }
 
-/// The experiment file in the results folder.
-const EXPERIMENT: &str = "experiment.toml";
-
-fn keep_experiment(text: &str, place: &Path) -> Result<()> {
-    let path = place.join(EXPERIMENT);
-    std::fs::write(&path, text)
-        .map_err(|error| Problem::from_error("cannot be written", error).in_file(&path))
+/// Keeps with the results the experiment file that lies there, and what it says for the record: it
+/// names the network as seen from there.
+fn keep(plan: &mut Plan, mut document: Table, network: &Path) -> Result<()> {
+    document["network"]["file"]["path"] = utf8(network)?.into();
+    let text = text(&document)?;
+    plan.written = load::parse(&text, Path::new(results::EXPERIMENT))?.1;
+    plan.kept = Some(text);
+    Ok(())
 }
 
-/// The experiment file that says what the options say.
-fn experiment(args: &Args, stages: &Stages) -> Result<String> {
-    let network = args.network.canonicalize().map_err(|error| {
+fn text(document: &Table) -> Result<String> {
+    toml::to_string_pretty(document)
+        .map_err(|error| Problem::from_error("the options cannot be written as TOML", error))
+}
+
+/// A path as it can stand in an experiment file.
+fn utf8(path: &Path) -> Result<&str> {
+    path.to_str().ok_or_else(|| Problem::new("the path is no text in UTF-8").in_file(path))
+}
+
+/// The experiment file beside the network that says what the options say, but for the curve.
+fn experiment(args: &Args) -> Result<Table> {
+    args.network.metadata().map_err(|error| {
         Problem::from_error("the network cannot be opened", error).in_file(&args.network)
     })?;
+    let name_of_file = utf8(Path::new(args.network.file_name().unwrap_or_default()))?;
     let (oscillator, model) = oscillator(&args.oscillator)?;
-    let Some((from, to)) = args.coupling.split_once(':') else {
-        let message = format!("`--coupling {}` must be two components, such as x:y", args.coupling);
-        return Err(Problem::new(message).hint(components(model)));
-    };
+    let (from, to) = components_coupled(args)?;
+    coupling(model, (from, to))?;
     let mut document = toml! {
         seed = 1
     };
-    let title = format!("Prediction for {}", args.network.display());
+    let title = format!("Prediction for {name_of_file}");
     document.insert("title".into(), title.into());
     if !args.prepare.is_empty() {
         let steps: Result<Vec<Value>> = args.prepare.iter().map(|step| preparation(step)).collect();
         document.insert("prepare".into(), steps?.into());
     }
     let mut file = toml! { path = "" };
-    file["path"] = network.display().to_string().into();
+    file["path"] = name_of_file.into();
     file.insert("format".into(), name(&format(args)?).into());
     if let Some(variable) = &args.variable {
         file.insert("variable".into(), variable.as_str().into());
@@ -147,12 +184,7 @@ fn experiment(args: &Args, stages: &Stages) -> Result<String> {
     if let Some(threshold) = args.threshold {
         document.insert("prediction".into(), table([("threshold", threshold.into())]));
     }
-    let reach = reach(model, (from, to), stages)?;
-    let sigma =
-        table([("from", 0.0.into()), ("to", reach.into()), ("points", SIGMA_POINTS.into())]);
-    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
-    toml::to_string_pretty(&document)
-        .map_err(|error| Problem::from_error("the options cannot be written as TOML", error))
+    Ok(document)
 }
 
 fn table<const N: usize>(entries: [(&str, Value); N]) -> Value {
@@ -208,16 +240,30 @@ fn components(model: Model) -> String {
     format!("`{}` has components {}", model.name(), model.components().join(", "))
 }
 
-/// How far the curve of Λ must reach.
-fn reach(model: Model, (from, to): (&str, &str), stages: &Stages) -> Result<f64> {
+/// The components that `--coupling` names.
+fn components_coupled(args: &Args) -> Result<(&str, &str)> {
+    args.coupling.split_once(':').ok_or_else(|| {
+        let message = format!("`--coupling {}` must be two components, such as x:y", args.coupling);
+        let hint =
+            oscillator(&args.oscillator).map_or_else(|_| String::new(), |(_, m)| components(m));
+        Problem::new(message).hint(hint)
+    })
+}
+
+fn coupling(model: Model, (from, to): (&str, &str)) -> Result<dynamics::Coupling> {
     let component = |name: &str| {
         model.components().iter().position(|known| *known == name).ok_or_else(|| {
             Problem::new(format!("`--coupling` names the component \"{name}\""))
                 .hint(components(model))
         })
     };
-    let coupling = dynamics::Coupling { from: component(from)?, to: component(to)? };
-    let node = msf::Node { model, coupling };
+    Ok(dynamics::Coupling { from: component(from)?, to: component(to)? })
+}
+
+/// How far the curve of Λ must reach.
+fn reach(args: &Args, stages: &Stages) -> Result<f64> {
+    let (_, model) = oscillator(&args.oscillator)?;
+    let node = msf::Node { model, coupling: coupling(model, components_coupled(args)?)? };
     let look = |progress: dynamics::Progress<'_>| msf::reach(&node, &FIRST_LOOK, 1, progress);
     stages
         .measured("first look at the msf", 16 * FIRST_LOOK.steps(), look)

@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output::printable;
+
 /// Shows the stages of one experiment.
 #[derive(Default)]
 pub struct Stages {
@@ -82,7 +84,7 @@ impl Stages {
         let bar = steps.map_or_else(ProgressBar::new_spinner, ProgressBar::new);
         let style = ProgressStyle::with_template(template).expect("the template is a constant");
         bar.set_style(style.progress_chars("=> "));
-        bar.set_prefix(format!("{} {stage}", self.id));
+        bar.set_prefix(format!("{} {stage}", printable(&self.id)));
         bar.enable_steady_tick(Duration::from_millis(200));
         bar
     }

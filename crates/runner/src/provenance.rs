@@ -4,10 +4,12 @@ use std::time::Duration;
 
 use indexmap::IndexMap;
 use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use graph::Network;
 
+use crate::place::Origin;
 use crate::plan::Plan;
 
 /// Bytes that are hashed at a time: many links at once take a tenth of the time.
@@ -19,6 +21,8 @@ pub struct Provenance {
     pub version: &'static str,
     /// Commit of eigensync that the program was built from; `+` when files were changed since.
     pub commit: &'static str,
+    /// Command and file that the results were made from.
+    pub origin: Origin,
     pub seed: u64,
     /// SHA-256 of the experiment as parsed, its shortening, and the hash of the network's links.
     pub plan_hash: String,
@@ -41,13 +45,15 @@ impl Provenance {
         plan: &Plan,
         links_hash: &str,
         (took, stages): (Duration, &[(String, Duration)]),
+        origin: &Origin,
     ) -> Self {
         let seconds = |time: Duration| (time.as_secs_f64() * 1e3).round() / 1e3;
         Self {
             version: env!("CARGO_PKG_VERSION"),
             commit: env!("EIGENSYNC_COMMIT"),
+            origin: origin.clone(),
             seed: plan.experiment.seed,
-            plan_hash: plan_hash(plan, links_hash),
+            plan_hash: plan_hash(&plan.written, plan.shortened, links_hash),
             host_features: host_features(),
             instruction_set: plan.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
@@ -77,10 +83,11 @@ pub fn links_hash(network: &Network) -> String {
     text(hash)
 }
 
-fn plan_hash(plan: &Plan, links_hash: &str) -> String {
+/// SHA-256 of an experiment as parsed, its shortening, and the hash of its network's links.
+pub fn plan_hash(written: &Value, shortened: f64, links_hash: &str) -> String {
     let mut hash = Sha256::new();
-    hash.update(plan.written.to_string());
-    hash.update(plan.shortened.to_le_bytes());
+    hash.update(written.to_string());
+    hash.update(shortened.to_le_bytes());
     hash.update(links_hash);
     text(hash)
 }

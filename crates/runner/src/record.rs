@@ -1,34 +1,45 @@
-//! `summary.json`: a run in numbers. `record/states` has the predicted states, `record/folder` the
-//! folder in which it is written.
+//! `summary.json`: a run in numbers. `record/states` has the predicted states.
 
-mod folder;
+mod parameters;
 mod states;
 
 use std::time::Duration;
 
+use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::agreement::{Agreement, Predicted};
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
+use crate::place::Origin;
 use crate::plan::Plan;
 use crate::provenance::{Provenance, links_hash};
 use crate::simulated::OverSeeds;
+use crate::spec::StepSpec;
+use crate::stability::word;
 use crate::step_effect::StepEffect;
+use crate::synchrony::Synchrony;
 use crate::warning::Warning;
 
-pub use folder::{Folder, check_writable};
 pub use states::StateRecord;
+
+/// Version of the layout of `summary.json`: it grows when a key goes or changes its meaning, not when
+/// one is added. Files without it are of version 0.1.0 of the program.
+pub const LAYOUT: u32 = 1;
 
 /// `summary.json`: the run in numbers. Modes count from 1, nodes go by their labels.
 #[derive(Serialize)]
 pub struct Summary {
+    /// Version of the layout of this file.
+    pub layout: u32,
     pub id: String,
     pub title: String,
     pub source: String,
     /// The experiment file as parsed, defaults left out.
     pub experiment: Value,
+    /// Every parameter used, in the words of experiment files, defaults among them.
+    pub parameters: Value,
     /// 1 for a full run; by how much `--quick` shortened all times.
     pub shortened: f64,
     pub network: NetworkRecord,
@@ -36,6 +47,8 @@ pub struct Summary {
     pub spectrum: SpectrumRecord,
     pub msf: MsfRecord,
     pub critical_couplings: Vec<CriticalRecord>,
+    /// Whether, and where, all nodes synchronise.
+    pub global_synchrony: Synchrony,
     pub cascade: Vec<StateRecord>,
     pub simulations: Vec<SimulationRecord>,
     /// What the step of the integrator does to their errors.
@@ -62,7 +75,8 @@ pub struct NetworkRecord {
 
 #[derive(Serialize)]
 pub struct StepRecord {
-    pub step: String,
+    /// As experiment files say it.
+    pub step: Value,
     pub removed_nodes: usize,
     pub removed_groups: Vec<String>,
     pub removed_links: usize,
@@ -102,13 +116,66 @@ pub struct VerifiedRecord {
 pub struct MsfRecord {
     pub lyapunov_isolated: f64,
     pub lyapunov_isolated_standard_error: f64,
-    /// Stable intervals of σ, [from, to]; no upper end where the grid ends stable.
+    /// What that says: `chaotic`, `periodic` or `at rest`.
+    pub isolated_state: &'static str,
+    /// The σ between which was looked; Λ(0) is known besides.
+    pub looked: [f64; 2],
+    /// Stable intervals of σ, [from, to]; no upper end where the look ends stable.
     pub stable: Vec<(f64, Option<f64>)>,
+    /// What the ends of these intervals are.
+    pub stable_ends: Vec<[EndRecord; 2]>,
     pub sigma_c: Option<f64>,
     pub standard_error: Option<f64>,
     pub confidence_interval: Option<[f64; 2]>,
     /// Every zero of Λ, with its standard error.
     pub zeros: Vec<ZeroRecord>,
+    /// Each attractor, where orbits settle on several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub attractors: Vec<AttractorRecord>,
+}
+
+/// An attractor of several.
+#[derive(Serialize)]
+pub struct AttractorRecord {
+    /// Orbits that settled on it, of how many.
+    pub orbits: [usize; 2],
+    /// σ at which it was told from the others, and Λ there.
+    pub told_at: f64,
+    pub lambda: f64,
+    pub lambda_standard_error: f64,
+    pub isolated_state: &'static str,
+    pub stable_ends: Vec<[EndRecord; 2]>,
+}
+
+/// An end of a stable interval.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum EndRecord {
+    Zero {
+        sigma: f64,
+        standard_error: f64,
+        refined: bool,
+    },
+    /// σ = 0, stable itself or only the limit.
+    Origin {
+        included: bool,
+    },
+    /// No end is known: the last σ that was looked at.
+    Looked {
+        sigma: f64,
+    },
+}
+
+impl From<End> for EndRecord {
+    fn from(end: End) -> Self {
+        match end {
+            End::Zero(Zero { sigma, standard_error, refined, .. }) => {
+                Self::Zero { sigma, standard_error, refined }
+            }
+            End::Origin { included } => Self::Origin { included },
+            End::Looked { sigma } => Self::Looked { sigma },
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -116,6 +183,8 @@ pub struct ZeroRecord {
     pub sigma: f64,
     pub standard_error: f64,
     pub falling: bool,
+    /// Whether it is known as well as was asked for.
+    pub refined: bool,
 }
 
 #[derive(Serialize)]
@@ -126,6 +195,8 @@ pub struct CriticalRecord {
     pub epsilon: Option<f64>,
     pub standard_error: Option<f64>,
     pub stable_above: bool,
+    /// Whether the zero of Λ behind it is known as well as was asked for.
+    pub refined: bool,
 }
 
 #[derive(Serialize)]
@@ -183,16 +254,19 @@ pub fn summarise(
     findings: &Findings,
     claims: Vec<Claim>,
     took: (Duration, &[(String, Duration)]),
+    origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
     let links_hash = links_hash(network);
     Summary {
+        layout: LAYOUT,
+        parameters: parameters::of(plan),
         id: plan.id.clone(),
         title: plan.experiment.title.clone(),
         source: plan.experiment.source.clone(),
         shortened: plan.shortened,
         network: NetworkRecord {
-            preparation: plan.preparation.iter().map(step_record).collect(),
+            preparation: step_records(plan),
             groups: network.groups().len(),
             nodes: network.n_nodes(),
             links: network.n_links(),
@@ -221,12 +295,13 @@ pub fn summarise(
         },
         msf: msf_record(findings),
         critical_couplings: critical_records(findings),
+        global_synchrony: findings.synchrony.clone(),
         cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
         simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took),
+        provenance: Provenance::new(plan, &links_hash, took, origin),
         experiment: plan.written.clone(),
     }
 }
@@ -241,9 +316,9 @@ fn verified(verification: spectra::Verification) -> VerifiedRecord {
     }
 }
 
-fn step_record(report: &graph::prepare::Report) -> StepRecord {
-    StepRecord {
-        step: format!("{:?}", report.step),
+fn step_records(plan: &Plan) -> Vec<StepRecord> {
+    let record = |(step, report): (&StepSpec, &graph::prepare::Report)| StepRecord {
+        step: serde_json::to_value(step).unwrap_or_default(),
         removed_nodes: report.removed_nodes.len(),
         removed_groups: report.removed_groups.clone(),
         removed_links: report.removed_links,
@@ -252,29 +327,45 @@ fn step_record(report: &graph::prepare::Report) -> StepRecord {
         nodes: report.n_nodes,
         links: report.n_links,
         directed: report.directed,
-    }
+    };
+    plan.experiment.prepare.iter().zip(&plan.preparation).map(record).collect()
 }
 
 fn msf_record(findings: &Findings) -> MsfRecord {
     let msf = &findings.msf;
-    let sigma_c = msf.sigma_c();
+    let sigma_c = msf.stable.sigma_c();
     MsfRecord {
         lyapunov_isolated: msf.isolated.mean,
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
-        stable: msf.stable_region().intervals.iter().map(|i| (i.from, i.to)).collect(),
+        isolated_state: word(msf.state),
+        looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
+        stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
+        stable_ends: ends(&msf.stable),
+        attractors: msf.attractors.iter().map(attractor_record).collect(),
         sigma_c: sigma_c.map(|zero| zero.sigma),
         standard_error: sigma_c.map(|zero| zero.standard_error),
         confidence_interval: sigma_c.map(|zero| zero.confidence_interval()),
-        zeros: msf
-            .zeros
-            .iter()
-            .map(|zero| ZeroRecord {
-                sigma: zero.sigma,
-                standard_error: zero.standard_error,
-                falling: zero.falling,
-            })
-            .collect(),
+        zeros: msf.stable.zeros().map(zero_record).collect(),
     }
+}
+
+fn ends(stable: &StableRegion) -> Vec<[EndRecord; 2]> {
+    stable.intervals.iter().map(|i| [i.from, i.to].map(Into::into)).collect()
+}
+
+fn attractor_record(attractor: &Attractor) -> AttractorRecord {
+    AttractorRecord {
+        orbits: [attractor.orbits, attractor.of],
+        told_at: attractor.told_at,
+        lambda: attractor.lambda.mean,
+        lambda_standard_error: attractor.lambda.standard_error,
+        isolated_state: word(attractor.state),
+        stable_ends: ends(&attractor.stable),
+    }
+}
+
+fn zero_record(Zero { sigma, standard_error, falling, refined }: Zero) -> ZeroRecord {
+    ZeroRecord { sigma, standard_error, falling, refined }
 }
 
 fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
@@ -285,6 +376,7 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
         epsilon: finite(critical.epsilon),
         standard_error: finite(critical.standard_error),
         stable_above: critical.stable_above,
+        refined: critical.refined,
     };
     findings.critical.iter().map(record).collect()
 }

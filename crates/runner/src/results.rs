@@ -1,6 +1,6 @@
 //! Everything a run writes: the summary, the tables, the figure.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use dynamics::{Errors, Estimate};
@@ -9,42 +9,51 @@ use crate::cascade_files;
 use crate::claims::Claim;
 use crate::drawing;
 use crate::findings::Findings;
+use crate::place::{Folder, Place};
 use crate::plan::Plan;
-use crate::problem::{Problem, Result};
-use crate::record::{Folder, summarise};
+use crate::problem::{Problem, Result, plain};
+use crate::record::summarise;
 use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
+use crate::warning::Warnings;
 
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
+/// The experiment file that says the same as the options of a prediction.
+pub const EXPERIMENT: &str = "experiment.toml";
 
 /// Writes the results folder and gives its place; `took` says how long the run has taken when asked.
+/// Numbers come first, and whatever becomes of the figure costs none of them.
 pub fn write(
     plan: &Plan,
     findings: &Findings,
     claims: Vec<Claim>,
     took: impl FnOnce() -> Duration,
-    results: &Path,
+    place: Place,
 ) -> Result<PathBuf> {
     let stages = &plan.stages;
-    let folder = Folder::start(results, &plan.id)?;
+    let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
-    let failed = |error: &dyn std::fmt::Display| {
-        Problem::from_error("the figure cannot be drawn", error).in_file(&plan.file)
-    };
-    let (svg, png) = stages.unmeasured("figure", || {
-        let svg = drawing::figure(plan, findings).svg().map_err(|error| failed(&error))?;
-        let png = crate::figures::png(&svg, drawing::DOTS_PER_INCH).map_err(|e| failed(&e))?;
-        Ok((svg, png))
-    })?;
-    folder.write("figure.png", png)?;
-    folder.write("figure.svg", svg)?;
-    let summary = summarise(plan, findings, claims, (took(), &stages.took()));
+    let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
+    let mut warnings = Warnings::new(&plan.id);
+    picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
+    for (name, bytes) in
+        [("figure.png", picture.png), ("figure.svg", picture.svg.map(String::into_bytes))]
+    {
+        if let Some(Err(problem)) = bytes.map(|bytes| folder.write(name, bytes)) {
+            warnings.add("figure", problem.to_string());
+        }
+    }
+    if let Some(text) = &plan.kept {
+        folder.write(EXPERIMENT, text)?;
+    }
+    let mut summary = summarise(plan, findings, claims, (took(), &stages.took()), place.origin());
+    summary.warnings.extend(warnings.into_list());
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;
     folder.write("summary.json", json + "\n")?;
-    folder.finish()
+    place.finish(folder)
 }
 
 fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
@@ -119,14 +128,16 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
     folder.write_table("sweep.csv", &header, rows)
 }
 
-/// δe_ij and δx_ij of every ε, where the figure shows them, as NumPy arrays of shape (N, N).
+/// δe_ij and δx_ij of every ε, where the figure shows them, as NumPy arrays of shape (N, N). ε stands in
+/// their names as the shortest text that reads back as the same number, so that no two are alike.
 fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
     let Some(simulated) = &findings.simulated else { return Ok(()) };
-    if plan.figure().kind == FigureKind::Sweep {
+    if !matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
         return Ok(());
     }
     let n_nodes = plan.network.n_nodes();
-    for (position, epsilon) in simulated.epsilon.iter().enumerate() {
+    for (position, &epsilon) in simulated.epsilon.iter().enumerate() {
+        let epsilon = plain(epsilon);
         if let Some(distance) = drawing::distance(findings, position) {
             let name = format!("distance_epsilon_{epsilon}.npy");
             folder.write(&name, npy(n_nodes, &distance.matrix()))?;

@@ -14,17 +14,18 @@ pub use network::{
     CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RegionsSpec,
     RowsSpec, StepSpec, SymmetriseSpec,
 };
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 pub use values::{Bound, EvenGrid, Grid, Layout, ModesSpec, Name, ThresholdSpec};
 
 /// An experiment: one network, one oscillator, one question.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
     /// One line that says what the experiment shows.
+    #[serde(skip_serializing)]
     pub title: String,
     /// Where its settings and expected values come from.
-    #[serde(default)]
+    #[serde(default, skip_serializing)]
     pub source: String,
     /// Seed of everything random. Replicas of a sweep use this seed and those that follow.
     #[serde(default = "one")]
@@ -47,12 +48,12 @@ pub struct Experiment {
     pub sweep: Option<SweepSpec>,
     #[serde(default)]
     pub figure: FigureSpec,
-    #[serde(default)]
+    #[serde(default, skip_serializing)]
     pub claims: IndexMap<String, ClaimSpec>,
 }
 
 /// `[coupling]`: the coupling matrix W and the coupling function H.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingSpec {
     pub matrix: MatrixKind,
@@ -62,7 +63,7 @@ pub struct CouplingSpec {
     pub to: String,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[value(rename_all = "snake_case")]
 pub enum MatrixKind {
@@ -73,16 +74,17 @@ pub enum MatrixKind {
 }
 
 /// `[spectrum]`: which modes, by which solver.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrumSpec {
-    pub modes: ModesSpec,
+    /// By default all of a network that is small enough, else `"auto"`.
+    pub modes: Option<ModesSpec>,
     pub solver: SolverKind,
     /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
     pub tolerance: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SolverKind {
     /// Chosen from the network: dense, ARPACK, shift-invert or Chebyshev filters.
@@ -95,7 +97,7 @@ pub enum SolverKind {
 }
 
 /// `[msf]`: the master stability function.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MsfSpec {
     /// Values of the generic coupling strength σ, from zero or above.
@@ -116,7 +118,7 @@ pub struct MsfSpec {
 }
 
 /// `[prediction]`: what makes a cluster.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PredictionSpec {
     /// `"exact"`: δe_ij = 0 up to the solver's accuracy; a number: single linkage below it.
@@ -124,7 +126,7 @@ pub struct PredictionSpec {
 }
 
 /// `[sweep]`: simulations over the coupling strength ε.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SweepSpec {
     pub epsilon: Grid,
@@ -159,7 +161,7 @@ pub struct SweepSpec {
     pub synchronised_below: Bound,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MethodKind {
     /// Classical fourth-order Runge–Kutta with a fixed step.
@@ -172,14 +174,15 @@ pub enum MethodKind {
 }
 
 /// `[figure]`: how the figure looks.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FigureSpec {
     /// What is drawn: the errors of a sweep against ε, matrices of distances and errors at every ε,
     /// or the nodes in space, coloured by clusters of regions.
     pub kind: FigureKind,
-    /// Modes whose eigenvectors are drawn beside matrices.
-    pub eigenvectors: Vec<usize>,
+    /// Modes whose eigenvectors are drawn beside matrices; 2, 3 and 4 by default, or those of them
+    /// that are computed.
+    pub eigenvectors: Option<Vec<usize>>,
     /// Letter of the paper's panels: "a" gives (a1), (a2), …
     pub letter: String,
     /// How the network is laid out.
@@ -198,7 +201,7 @@ impl Default for FigureSpec {
     fn default() -> Self {
         Self {
             kind: FigureKind::Sweep,
-            eigenvectors: vec![2, 3, 4],
+            eigenvectors: None,
             letter: "a".into(),
             layout: Layout::Force,
             mark_modes: None,
@@ -209,22 +212,24 @@ impl Default for FigureSpec {
     }
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureKind {
     Sweep,
     Matrices,
     Regions,
+    /// No figure: numbers only.
+    None,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorScale {
     Linear,
     Log,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SpreadKind {
     /// A shaded band.

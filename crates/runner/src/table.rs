@@ -34,6 +34,9 @@ fn table(claims: &[Claim]) -> String {
         if let Some(uncertainty) = claim.uncertainty {
             obtained.push_str(&format!(" ± {}", two_digits(uncertainty)));
         }
+        if claim.refined == Some(false) {
+            obtained.push_str(", not as good as asked");
+        }
         let name = claim.name.replace('_', " ");
         table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }
@@ -191,6 +194,12 @@ pub fn four_digits(number: f64) -> String {
         return format!("{number}");
     }
     let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
+    format!("{digits}")
+}
+
+/// A number with three significant digits.
+pub fn three_digits(number: f64) -> String {
+    let digits = format!("{number:.2e}").parse::<f64>().unwrap_or(number);
     format!("{digits}")
 }
 

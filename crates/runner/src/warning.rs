@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::output::tell;
+use crate::output::{readable, tell};
 
 /// A doubt about a number, or a thing about the input that changes what numbers mean.
 #[derive(Clone, Debug, Serialize)]
@@ -27,7 +27,7 @@ impl Warnings {
 
     /// Says a warning on standard error and keeps it.
     pub fn add(&mut self, about: &'static str, message: impl Into<String>) {
-        let message = message.into();
+        let message = readable(&message.into());
         tell!("warning: {}: {message}", self.id);
         self.list.push(Warning { about, message });
     }

@@ -50,17 +50,12 @@ fn kill_when(mut run: Child, has_come: impl Fn() -> bool) -> bool {
     run.wait().expect("the run can be waited for").code().is_none()
 }
 
-/// The folders in the making, hidden beside the results.
-fn unfinished(place: &Workplace) -> Vec<String> {
-    let mut names = place.names("results");
-    names.retain(|name| name.starts_with(".tiny.unfinished-"));
-    names
-}
+/// The folder in which a run is put together, hidden beside the results.
+const UNFINISHED: &str = "results/.tiny.unfinished";
 
-/// Whether a file is in a folder in the making.
+/// Whether a file is in the folder in the making.
 fn is_writing(place: &Workplace, file: &str) -> bool {
-    let has = |folder: &String| place.path(&format!("results/{folder}/{file}")).exists();
-    unfinished(place).iter().any(has)
+    place.path(&format!("{UNFINISHED}/files/{file}")).exists()
 }
 
 fn check_rerun(place: &Workplace) {
@@ -99,7 +94,7 @@ fn a_run_killed_while_it_writes_leaves_nothing_that_looks_finished() {
             assert_eq!(place.names("results/tiny"), WHOLE, "killed at {file}");
         } else {
             interrupted += 1;
-            assert_eq!(unfinished(&place).len(), 1, "killed at {file}");
+            assert!(place.path(UNFINISHED).exists(), "killed at {file}");
         }
         check_rerun(&place);
     }
@@ -128,6 +123,20 @@ fn unfinished_folders_of_other_experiments_are_left_alone() {
     let place = Workplace::new();
     place.write("results/.tiny.unfinished-Ab12Cd/msf.csv", "");
     place.write("results/.tinier.unfinished-Ab12Cd/msf.csv", "");
+    place.write("results/.tinier.unfinished/lock", "");
+    place.write("results/.tinier.unfinished/journal", "hours of work");
+    place.write("results/.git/lock", "");
     place.answer(&["run", "tiny.toml"]).with_status(0);
-    assert_eq!(place.names("results"), [".tinier.unfinished-Ab12Cd", "tiny"]);
+    let others = [".git", ".tinier.unfinished", ".tinier.unfinished-Ab12Cd"];
+    assert_eq!(place.names("results"), [&others[..], &["tiny"]].concat());
+    assert_eq!(place.read("results/.tinier.unfinished/journal"), "hours of work");
+}
+
+#[test]
+fn what_a_dead_run_of_another_experiment_left_without_work_in_it_is_cleared_away() {
+    let place = Workplace::new();
+    place.write("results/.other.unfinished/lock", "");
+    place.write("results/.other.unfinished/files/msf.csv", "half of it");
+    place.answer(&["run", "tiny.toml"]).with_status(0);
+    assert_eq!(place.names("results"), ["tiny"]);
 }

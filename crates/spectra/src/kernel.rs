@@ -18,6 +18,30 @@ pub(crate) struct Components {
     pub count: usize,
 }
 
+impl Components {
+    /// Scalar products of a vector with those of [`kernel`], one for each component.
+    pub(crate) fn overlaps(&self, w: &CouplingMatrix, u: &[f64]) -> Vec<f64> {
+        let (mut products, mut squares) = (vec![0.0; self.count], vec![0.0; self.count]);
+        for ((&component, scale), u_i) in self.of_node.iter().zip(w.scale()).zip(u) {
+            products[component] += u_i / scale;
+            squares[component] += 1.0 / scale / scale;
+        }
+        products.iter().zip(squares).map(|(product, square)| product / square.sqrt()).collect()
+    }
+
+    /// Removes from a vector its part in the kernel.
+    pub(crate) fn project_out(&self, w: &CouplingMatrix, u: &mut [f64]) {
+        let mut squares = vec![0.0; self.count];
+        for (&component, scale) in self.of_node.iter().zip(w.scale()) {
+            squares[component] += 1.0 / scale / scale;
+        }
+        let overlaps = self.overlaps(w, u);
+        for ((&component, scale), u_i) in self.of_node.iter().zip(w.scale()).zip(u) {
+            *u_i -= overlaps[component] / squares[component].sqrt() / scale;
+        }
+    }
+}
+
 /// Finds the connected components of the network behind W.
 pub(crate) fn components(w: &CouplingMatrix) -> Components {
     let mut of_node = vec![usize::MAX; w.n_nodes()];

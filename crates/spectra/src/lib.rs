@@ -37,6 +37,8 @@ mod random;
 mod request;
 mod ritz;
 mod separator;
+mod slow_modes;
+mod smallest;
 mod spectrum;
 mod subspace;
 mod verification;
@@ -45,6 +47,7 @@ mod wanted;
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
+pub use smallest::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 
@@ -55,6 +58,9 @@ use graph::CouplingMatrix;
 /// Whole eigenspaces only: when the count asked for would cut an eigenspace, the rest of that
 /// eigenspace is returned as well, because a part of it would depend on an arbitrary basis. The
 /// spectrum may therefore have more modes than [`Modes::Leading`] asked for, never fewer.
+///
+/// As many modes are of eigenvalue 0, exactly, as the network has components; what rounding beside the
+/// largest weight does not tell from 0 has eigenvalues of its own, as the weak links make them.
 ///
 /// Every eigenpair satisfies ‖S u − λ u‖ ≤ `tolerance` · max_i |w_ii| with ‖u‖ = 1 (for the dense
 /// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Spectrum::residuals`] are those of W itself

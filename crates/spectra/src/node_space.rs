@@ -8,7 +8,7 @@ use crate::block::Block;
 use crate::completeness::Found;
 use crate::product::multiply_block;
 use crate::request::Plan;
-use crate::{Solver, SpectraError, Spectrum, Verification, eigenspace};
+use crate::{Solver, SpectraError, Spectrum, Verification, eigenspace, slow_modes};
 
 /// Magnitudes this close, relatively, are a tie for the largest component.
 const SIGN_TIE: f64 = 1e-6;
@@ -20,7 +20,7 @@ pub(crate) fn spectrum(
     plan: &Plan,
     (solver, verification): (Solver, Verification),
 ) -> Result<Spectrum, SpectraError> {
-    let Found { pairs, products } = found;
+    let Found { mut pairs, products } = found;
     let accurate =
         residuals(w.symmetric(), &pairs).iter().filter(|&&r| r <= plan.residual_bound).count();
     if accurate < pairs.len() {
@@ -32,6 +32,7 @@ pub(crate) fn spectrum(
         });
     }
     let eigenspaces = eigenspace::eigenspaces(&pairs.values, plan.grouping);
+    let eigenspaces = slow_modes::settle(w, &mut pairs, eigenspaces, plan.grouping)?;
     let mut symmetric_vectors = pairs.vectors.into_iter();
     let spaces: Vec<Vec<Vec<f64>>> = eigenspaces
         .iter()

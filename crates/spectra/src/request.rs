@@ -199,7 +199,7 @@ impl Plan {
 }
 
 /// max_i |w_ii|: the largest degree of a laplacian, 1 for a normalized matrix.
-fn scale(w: &CouplingMatrix) -> Result<f64, SpectraError> {
+pub(crate) fn scale(w: &CouplingMatrix) -> Result<f64, SpectraError> {
     let mut largest = 0.0f64;
     for (node, row) in w.symmetric().outer_iterator().enumerate() {
         for &value in row.data() {

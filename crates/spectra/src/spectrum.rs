@@ -54,7 +54,8 @@ pub struct Spectrum {
     /// Runs of equal eigenvalues, as ranges of mode indices (0-based) that cover all modes in order.
     pub eigenspaces: Vec<Range<usize>>,
     /// Neighbouring eigenvalues that differ by at most this are one eigenspace: the larger of
-    /// 1e-10 max_i |w_ii| and ten times the largest residual allowed.
+    /// 1e-10 max_i |w_ii| and ten times the largest residual allowed. Those so close to 0 are told
+    /// apart on their own scale instead, and from the zero modes, one for each component.
     pub tolerance: f64,
     /// Where all modes with λ_k above a cutoff were asked for, that cutoff: whatever was not computed
     /// lies below it.

@@ -4,7 +4,7 @@ mod common;
 
 use common::{BOTH, ITERATIVE, check_eigenvalues, dense, network, scale, solve, with};
 use graph::{CouplingMatrix, Normalization};
-use spectra::{Modes, SolverChoice, SpectraError, leading_modes};
+use spectra::{Modes, SolverChoice, SpectraError, leading_modes, smallest_eigenvalue};
 
 const EVERY: [SolverChoice; 5] = [
     SolverChoice::Auto,
@@ -98,15 +98,34 @@ fn weights_over_twelve_orders_keep_eigenvalues_to_the_tolerance_of_the_strongest
 }
 
 #[test]
-fn what_is_weaker_than_the_tolerance_counts_as_apart() {
-    // Two strong pairs behind a link 10⁻¹² as strong: their difference mode is not told from 0.
+fn what_is_weaker_than_the_tolerance_has_an_eigenvalue_of_its_own() {
+    // Two strong pairs behind a link 10⁻¹² as strong: 1e-6 (1/2 + 1/2) against each other.
     let w = CouplingMatrix::new(
         &network(4, &[(0, 1, 1e6), (2, 3, 1e6), (1, 2, 1e-6)]),
         Normalization::Laplacian,
     );
     for solver in EVERY {
         let spectrum = solve(&w, &with(solver, Modes::Leading(1)));
-        assert_eq!((spectrum.eigenspaces.len(), spectrum.eigenvalues.len()), (1, 2), "{solver:?}");
+        assert_eq!(spectrum.eigenspaces, [0..1, 1..2], "{solver:?}");
+        check_eigenvalues(&spectrum, &[0.0, -1e-6], 1e-15);
         assert!(spectrum.tolerance >= 1e-10 * 1e6);
     }
+}
+
+#[test]
+fn the_smallest_eigenvalue_by_itself_is_that_of_the_whole_spectrum() {
+    let star: Vec<_> = (1..50).map(|leaf| (0, leaf, 1.0)).collect();
+    let ring: Vec<_> = (0..400).map(|i| (i, (i + 1) % 400, 1.0 + (i % 7) as f64)).collect();
+    let pieces = [(0, 1, 1.0), (2, 3, 5.0)];
+    for (n, links) in [(50, &star[..]), (400, &ring), (6, &pieces), (3, &[])] {
+        for normalization in BOTH {
+            let w = CouplingMatrix::new(&network(n, links), normalization);
+            let expected = solve(&w, &dense()).eigenvalues[n - 1];
+            let found = smallest_eigenvalue(&w).unwrap();
+            assert!((found - expected).abs() < 1e-6 * scale(&w), "{found} for {expected}");
+        }
+    }
+    // The hub and its 49 leaves: −N.
+    let w = CouplingMatrix::new(&network(50, &star), Normalization::Laplacian);
+    assert!((smallest_eigenvalue(&w).unwrap() + 50.0).abs() < 1e-9);
 }

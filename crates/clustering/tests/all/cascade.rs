@@ -4,7 +4,7 @@ use clustering::{
     ClusterRule, ClusteringError, EigenvectorDistance, State, cascade, merge_equal_clusters,
 };
 use graph::Normalization;
-use msf::{Interval, StableRegion};
+use msf::{End, Interval, StableRegion};
 use proptest::prelude::*;
 use spectra::Spectrum;
 
@@ -17,7 +17,7 @@ use crate::fixtures::{
 const SIGMA_C: f64 = 8.17;
 
 fn region(intervals: &[(f64, Option<f64>)]) -> StableRegion {
-    let intervals = intervals.iter().map(|&(from, to)| Interval { from, to }).collect();
+    let intervals = intervals.iter().map(|&(from, to)| Interval::known(from, to)).collect();
     StableRegion { intervals }
 }
 
@@ -247,6 +247,28 @@ fn leading_modes_decide_nothing_in_a_bounded_window() {
 }
 
 #[test]
+fn nothing_is_predicted_below_the_sigma_that_were_looked_at() {
+    // Stable from σ = 10 on, where the look began: mode 2 of the six nodes, λ = −2, comes to it at 5.
+    let mut stable = above(10.0);
+    stable.intervals[0].from = End::Looked { sigma: 10.0 };
+    let states = exact(&six_nodes(), &stable);
+    let [state] = &states[..] else { panic!("{states:?}") };
+    check_range(state, 5.0, None);
+    assert!(state.truncated && state.unstable_modes.is_empty());
+}
+
+#[test]
+fn oscillators_at_rest_are_equal_in_every_component_of_the_network() {
+    let two_pairs = spectrum_of(&read("1 2\n3 4\n"), Normalization::Laplacian);
+    let mut stable = region(&[(0.0, None)]);
+    let states = exact(&two_pairs, &stable);
+    assert_eq!(states.iter().map(|s| s.clusters.n_clusters()).collect::<Vec<_>>(), [2]);
+    stable.intervals[0].from = End::Origin { included: true };
+    let states = exact(&two_pairs, &stable);
+    assert_eq!(states.iter().map(|s| s.clusters.n_clusters()).collect::<Vec<_>>(), [1]);
+}
+
+#[test]
 fn the_synchronous_mode_alone_decides_nothing() {
     let error = cascade(&leading(nepal(), 1), &above(SIGMA_C), ClusterRule::Exact).unwrap_err();
     assert_eq!(error, ClusteringError::NoTransverseMode { computed: 1, n_nodes: 15 });
@@ -266,8 +288,7 @@ fn any_region() -> impl Strategy<Value = StableRegion> {
         if is_open != (edges.len() % 2 == 1) {
             edges.pop();
         }
-        let intervals =
-            edges.chunks(2).map(|e| Interval { from: e[0], to: e.get(1).copied() }).collect();
+        let intervals = edges.chunks(2).map(|e| Interval::known(e[0], e.get(1).copied())).collect();
         StableRegion { intervals }
     })
 }
@@ -291,7 +312,7 @@ proptest! {
             let modes: Vec<usize> = (1..n).filter(unstable).collect();
             prop_assert_eq!(&found[0].unstable_modes, &modes);
             let distance = EigenvectorDistance::new(&spectrum, &modes).unwrap();
-            prop_assert_eq!(&found[0].clusters, &distance.exact_clusters().unwrap());
+            prop_assert_eq!(&*found[0].clusters, &distance.exact_clusters().unwrap());
         }
     }
 
@@ -307,7 +328,7 @@ proptest! {
             prop_assert_eq!(state.epsilon, exact_state.epsilon);
             prop_assert_eq!(&state.unstable_modes, &exact_state.unstable_modes);
             let distance = EigenvectorDistance::new(&spectrum, &state.unstable_modes).unwrap();
-            prop_assert_eq!(&state.clusters, &distance.clusters_within(threshold).unwrap());
+            prop_assert_eq!(&*state.clusters, &distance.clusters_within(threshold).unwrap());
         }
     }
 

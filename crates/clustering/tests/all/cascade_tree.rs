@@ -2,7 +2,7 @@
 
 use clustering::{
     CascadeTree, ClusterKind, ClusterRule, State, StateLabels, TreeEnd, TreeRow, cascade,
-    merge_equal_clusters,
+    hold_against_links, merge_equal_clusters,
 };
 use graph::{CouplingMatrix, Normalization};
 use msf::{Interval, StableRegion};
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use crate::fixtures::{leading, nepal, random_network, read, six_nodes, spectrum_of};
 
 fn region(from: f64, to: Option<f64>) -> StableRegion {
-    StableRegion { intervals: vec![Interval { from, to }] }
+    StableRegion { intervals: vec![Interval::known(from, to)] }
 }
 
 fn only(mut trees: Vec<CascadeTree>) -> CascadeTree {
@@ -135,10 +135,16 @@ fn clusters_of_the_power_grid_are_labelled_exact_and_accidents_are_not() {
     let labelled = |edges: &str| {
         let network = read(edges);
         let spectrum = spectrum_of(&network, Normalization::Laplacian);
-        let states = cascade(&spectrum, &region(1.0, None), ClusterRule::Exact).unwrap();
-        let mut tree = only(CascadeTree::of_each_run(&states, 1));
+        let rule = ClusterRule::Exact;
+        let mut states = cascade(&spectrum, &region(1.0, None), rule).unwrap();
         let w = CouplingMatrix::new(&network, Normalization::Laplacian);
-        let of = |state| StateLabels::of(state, &spectrum, w.matrix().view(), 1e-9).unwrap();
+        let w = w.matrix().view();
+        hold_against_links(&mut states, &spectrum, w, rule, 1e-9).unwrap();
+        let mut tree = only(CascadeTree::of_each_run(&states, 1));
+        let of = |state| {
+            let alone = std::slice::from_ref(state);
+            StateLabels::of(state, alone, &spectrum, w, rule, 1e-9).unwrap()
+        };
         tree.label(&states, &states.iter().map(of).collect::<Vec<_>>());
         tree.rows().map(|row| (row.size, row.kind.unwrap())).collect::<Vec<_>>()
     };

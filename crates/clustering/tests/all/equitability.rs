@@ -1,16 +1,10 @@
-//! Equitable partitions, and the labels that follow: small networks by hand, all pairs as the second
-//! route.
+//! Equitable partitions: small networks by hand, all pairs as the second route.
 
-use clustering::{
-    ClusterKind, ClusterRule, ClusteringError, EigenvectorDistance, Partition, cascade, equitable,
-    label_clusters,
-};
+use clustering::{ClusteringError, Partition, equitable};
 use graph::{CouplingMatrix, Network, Normalization, SparseMatrix};
-use msf::{Interval, StableRegion};
 use proptest::prelude::*;
-use spectra::Spectrum;
 
-use crate::fixtures::{random_network, read, spectrum_of};
+use crate::fixtures::{random_network, read};
 
 const TOLERANCE: f64 = 1e-9;
 
@@ -99,56 +93,6 @@ fn weights_that_are_no_numbers_are_refused() {
     assert_eq!(error, expected);
     let error = equitable(laplacian(PATH).view(), &Partition::one_cluster(5), -1.0).unwrap_err();
     assert_eq!(error, ClusteringError::BadThreshold { threshold: -1.0 });
-}
-
-/// The labels of the clusters of each state.
-fn kinds(spectrum: &Spectrum, w: &SparseMatrix, rule: ClusterRule) -> Vec<Vec<ClusterKind>> {
-    let stable = StableRegion { intervals: vec![Interval { from: 1.0, to: None }] };
-    let states = cascade(spectrum, &stable, rule).unwrap();
-    let of = |state: &clustering::State| {
-        let equitability = equitable(w.view(), &state.clusters, TOLERANCE).unwrap();
-        let distance = EigenvectorDistance::new(spectrum, &state.unstable_modes).unwrap();
-        let labels = label_clusters(&distance, &state.clusters, &equitability);
-        labels.into_iter().map(|label| label.kind).collect()
-    };
-    states.iter().map(of).collect()
-}
-
-#[test]
-fn nodes_that_agree_by_accident_of_a_localised_mode_are_no_exact_cluster() {
-    use ClusterKind::{Approximate, Exact, Single};
-    // A path of seven nodes with an eighth on its middle, node 4: v_2 is odd and vanishes on both.
-    let edges = "1 2\n2 3\n3 4\n4 5\n5 6\n6 7\n4 8";
-    let spectrum = spectrum_of(&read(edges), Normalization::Laplacian);
-    let distance = EigenvectorDistance::new(&spectrum, &[1]).unwrap();
-    assert_eq!(distance.exact_clusters().unwrap().nontrivial(), [[3, 7]]);
-    let kinds = kinds(&spectrum, &laplacian(edges), ClusterRule::Exact);
-    assert_eq!(kinds[0], [Exact]);
-    assert_eq!(kinds[1], [Single, Single, Single, Approximate, Single, Single, Single]);
-    assert_eq!(kinds[2], [Single; 8]);
-}
-
-#[test]
-fn clusters_that_are_only_near_are_approximate_and_say_how_near() {
-    let w = laplacian(SIX_NODES);
-    let spectrum = spectrum_of(&read(SIX_NODES), Normalization::Laplacian);
-    let distance = EigenvectorDistance::new(&spectrum, &[1, 2]).unwrap();
-    let partition = Partition::from_marks(&[0, 0, 1, 1, 1, 0]);
-    let equitability = equitable(w.view(), &partition, TOLERANCE).unwrap();
-    let labels = label_clusters(&distance, &partition, &equitability);
-    // v_3 = (2, −1, −1, …)/√12 tells node 1 from 2 and 6, though the cluster is equitable.
-    assert!(labels.iter().all(|label| label.kind == ClusterKind::Approximate));
-    assert!((labels[0].spread - 0.5 * 3.0 / 12f64.sqrt()).abs() < 1e-14);
-    assert!(labels[0].deviation < 1e-15);
-}
-
-#[test]
-fn exact_clusters_of_the_power_grid_are_exact() {
-    let edges = include_str!("../../../../experiments/networks/nepal.edges");
-    let spectrum = spectrum_of(&read(edges), Normalization::Laplacian);
-    for state in kinds(&spectrum, &laplacian(edges), ClusterRule::Exact) {
-        assert!(!state.contains(&ClusterKind::Approximate), "{state:?}");
-    }
 }
 
 /// The deviation of every cluster by its definition.

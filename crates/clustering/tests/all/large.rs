@@ -95,7 +95,7 @@ fn a_hundred_thousand_equal_rows_are_one_cluster_at_once() {
 #[test]
 fn the_tree_of_a_ring_of_cliques_keeps_every_clique_together() {
     let Fixture { spectrum, .. } = ring_of_cliques(5_000);
-    let stable = StableRegion { intervals: vec![Interval { from: 1.0, to: None }] };
+    let stable = StableRegion { intervals: vec![Interval::known(1.0, None)] };
     let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
     let trees = CascadeTree::of_each_run(&states, 2);
     assert_eq!((states.len(), trees.len()), (4, 1));
@@ -110,7 +110,7 @@ fn the_tree_of_a_ring_of_cliques_keeps_every_clique_together() {
 #[test]
 #[ignore = "a measurement"]
 fn cascades_of_a_million_nodes() {
-    let stable = StableRegion { intervals: vec![Interval { from: 1.0, to: None }] };
+    let stable = StableRegion { intervals: vec![Interval::known(1.0, None)] };
     for Fixture { name, spectrum, threshold } in all(1_000_000) {
         for rule in [ClusterRule::Exact, ClusterRule::Threshold(threshold)] {
             let start = std::time::Instant::now();

@@ -7,9 +7,12 @@ mod correlation;
 mod distance;
 mod equitability;
 mod fixtures;
+mod labels;
 mod large;
 #[path = "../../benches/clusters/fixtures.rs"]
 mod large_fixtures;
 mod partition;
+mod planted;
+mod refinement;
 mod regions;
 mod robustness;

@@ -3,7 +3,7 @@
 
 use clustering::{
     CascadeTree, ClusterKind, ClusterRule, ClusteringError, EigenvectorDistance, Partition, State,
-    cascade, equitable, label_clusters,
+    StateLabels, cascade, equitable, hold_against_links,
 };
 use graph::{CouplingMatrix, Network, Normalization};
 use msf::{Interval, StableRegion};
@@ -13,23 +13,24 @@ use crate::fixtures::{nepal, read, spectrum_of};
 const RULES: [ClusterRule; 2] = [ClusterRule::Exact, ClusterRule::Threshold(1e-6)];
 
 fn above(sigma_c: f64) -> StableRegion {
-    StableRegion { intervals: vec![Interval { from: sigma_c, to: None }] }
+    StableRegion { intervals: vec![Interval::known(sigma_c, None)] }
 }
 
 /// The states of a network, with the labels of each state's clusters.
 fn predicted(network: &Network, rule: ClusterRule) -> Vec<(State, Vec<ClusterKind>)> {
     let coupling = CouplingMatrix::new(network, Normalization::Laplacian);
     let spectrum = spectrum_of(network, Normalization::Laplacian);
-    let states = cascade(&spectrum, &above(1.0), rule).unwrap();
+    let mut states = cascade(&spectrum, &above(1.0), rule).unwrap();
+    let w = coupling.matrix().view();
+    hold_against_links(&mut states, &spectrum, w, rule, 1e-9).unwrap();
     let trees = CascadeTree::of_each_run(&states, 1);
     let listed =
         |tree: &CascadeTree| tree.clusters.iter().filter(|c| !c.splits).map(|c| c.size).sum();
     assert!(trees.iter().map(listed).all(|n: usize| n == network.n_nodes()));
     let kinds = |state: &State| {
-        let equitability = equitable(coupling.matrix().view(), &state.clusters, 1e-9).unwrap();
-        let distance = EigenvectorDistance::new(&spectrum, &state.unstable_modes).unwrap();
-        let labels = label_clusters(&distance, &state.clusters, &equitability);
-        labels.into_iter().map(|label| label.kind).collect()
+        let alone = std::slice::from_ref(state);
+        let labels = StateLabels::of(state, alone, &spectrum, w, rule, 1e-9).unwrap();
+        labels.labels.into_iter().map(|label| label.kind).collect()
     };
     states.iter().map(|state| (state.clone(), kinds(state))).collect()
 }
@@ -113,6 +114,6 @@ fn a_network_without_links_has_one_state_of_single_nodes() {
     for rule in RULES {
         let states = predicted(&read("1\n2\n3\n4"), rule);
         assert_eq!(states.len(), 1);
-        assert_eq!(states[0].0.clusters, Partition::singletons(4));
+        assert_eq!(*states[0].0.clusters, Partition::singletons(4));
     }
 }

@@ -1,6 +1,6 @@
 //! Files within a zip archive, unpacked as a stream of bounded length.
 
-use std::io::{self, Read, Seek};
+use std::io::{self, Read, Seek, SeekFrom};
 
 use thiserror::Error;
 use zip::ZipArchive;
@@ -12,6 +12,16 @@ use super::text::quoted;
 ///
 /// A few megabytes can hold thousands of times as many zeros; this bounds the time that they take.
 pub const MAX_UNPACKED_BYTES: u64 = 4 << 30;
+
+/// Most bytes that are unpacked of one file of text, which takes longer to read: 1 GiB, some 14,000 nodes
+/// with five characters for each pair.
+pub(super) const MAX_UNPACKED_TEXT: u64 = 1 << 30;
+
+/// Numbers that are kept in memory of a compressed file of so many bytes, at most. Vectors of ones
+/// and of zeros shrink to a thousandth, but those that say which nodes are linked do not.
+pub(super) fn most_kept(packed_bytes: u64) -> u64 {
+    packed_bytes.saturating_mul(64).saturating_add(1 << 24)
+}
 
 /// Most names that an error lists.
 const MAX_LISTED: usize = 20;
@@ -43,10 +53,13 @@ pub enum ArchiveError {
 pub(super) struct Archive<R> {
     zip: ZipArchive<R>,
     names: Vec<String>,
+    /// Length of the whole archive.
+    packed_bytes: u64,
 }
 
 impl<R: Read + Seek> Archive<R> {
-    pub(super) fn new(source: R) -> Result<Self, ArchiveError> {
+    pub(super) fn new(mut source: R) -> Result<Self, ArchiveError> {
+        let packed_bytes = source.seek(SeekFrom::End(0)).map_err(ArchiveError::Io)?;
         let not_zip = |error| match error {
             ZipError::Io(error) if error.kind() != io::ErrorKind::UnexpectedEof => {
                 ArchiveError::Io(error)
@@ -55,7 +68,7 @@ impl<R: Read + Seek> Archive<R> {
         };
         let zip = ZipArchive::new(source).map_err(not_zip)?;
         let names = zip.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<_, _>>();
-        Ok(Self { names: names.map_err(not_zip)?, zip })
+        Ok(Self { names: names.map_err(not_zip)?, zip, packed_bytes })
     }
 
     /// Names of all files and folders, as the archive lists them.
@@ -63,11 +76,16 @@ impl<R: Read + Seek> Archive<R> {
         &self.names
     }
 
-    /// The content of the file of that place in [`Self::names`].
-    pub(super) fn open(&mut self, index: usize) -> Result<impl Read, ArchiveError> {
+    /// Length of the whole archive in bytes.
+    pub(super) fn packed_bytes(&self) -> u64 {
+        self.packed_bytes
+    }
+
+    /// The content of the file of that place in [`Self::names`], at most so many bytes of it.
+    pub(super) fn open(&mut self, index: usize, most: u64) -> Result<impl Read, ArchiveError> {
         let file = quoted(&self.names[index]);
         match self.zip.by_index(index) {
-            Ok(content) => Ok(Limited { source: content, left: MAX_UNPACKED_BYTES }),
+            Ok(content) => Ok(Limited::new(content, most)),
             Err(ZipError::Io(error)) => Err(ArchiveError::Io(error)),
             Err(error) => Err(ArchiveError::CannotUnpack { file, reason: quoted_reason(&error) }),
         }
@@ -81,8 +99,15 @@ fn quoted_reason(error: &ZipError) -> String {
 
 /// A source that fails, rather than ends, beyond so many bytes.
 pub(super) struct Limited<R> {
-    pub(super) source: R,
-    pub(super) left: u64,
+    source: R,
+    left: u64,
+    most: u64,
+}
+
+impl<R> Limited<R> {
+    pub(super) fn new(source: R, most: u64) -> Self {
+        Self { source, left: most, most }
+    }
 }
 
 impl<R: Read> Read for Limited<R> {
@@ -91,7 +116,7 @@ impl<R: Read> Read for Limited<R> {
         match self.left.checked_sub(n as u64) {
             Some(left) => self.left = left,
             None => {
-                let text = format!("more than {MAX_UNPACKED_BYTES} bytes when unpacked");
+                let text = format!("more than {} bytes when unpacked", self.most);
                 return Err(io::Error::other(text));
             }
         }

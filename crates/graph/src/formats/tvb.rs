@@ -20,11 +20,14 @@ use std::ops::Range;
 use bzip2::read::MultiBzDecoder;
 use thiserror::Error;
 
-use super::archive::{Archive, Limited, MAX_UNPACKED_BYTES, listed};
+use super::archive::{Archive, Limited, MAX_UNPACKED_TEXT, listed};
 use super::dense::{self, DenseError};
 use super::text::{Lines, quoted};
 use super::{ArchiveError, Layout, MatrixError, TextError};
 use crate::{GraphError, Group, RawNetwork};
+
+/// Most centres: N rows of N values take 2 N² bytes or more.
+const MAX_CENTRES: usize = 23_170;
 
 /// Why a connectivity archive could not be read. Lines and columns of text count from 1.
 #[derive(Debug, Error)]
@@ -73,6 +76,14 @@ pub enum TvbError {
         line: usize,
         /// How many values there are.
         found: usize,
+    },
+    /// More centres than a full matrix as text could have rows.
+    #[error(
+        "{file} has more than {MAX_CENTRES} centres, for which no matrix as text can have rows"
+    )]
+    TooManyCentres {
+        /// Name of the file.
+        file: String,
     },
     /// A coordinate that is not a finite number.
     #[error("{file}, line {line}: expected {coordinate} to be a finite number, found `{found}`")]
@@ -172,10 +183,10 @@ impl<R: Read + Seek> Archive<R> {
         read: impl FnOnce(String, &mut dyn Read) -> Result<T, TvbError>,
     ) -> Result<T, TvbError> {
         let name = self.names()[place].clone();
-        let mut content = self.open(place)?;
+        let mut content = self.open(place, MAX_UNPACKED_TEXT)?;
         if name.ends_with(".bz2") {
             let source = MultiBzDecoder::new(content);
-            return read(quoted(&name), &mut Limited { source, left: MAX_UNPACKED_BYTES });
+            return read(quoted(&name), &mut Limited::new(source, MAX_UNPACKED_TEXT));
         }
         read(quoted(&name), &mut content)
     }
@@ -198,6 +209,9 @@ fn read_centres<R: Read + Seek>(
         while let Some((line, text)) = lines.next_line().map_err(failed)? {
             let text = text.trim();
             if !text.is_empty() && !text.starts_with('#') {
+                if centres.len() == MAX_CENTRES {
+                    return Err(TvbError::TooManyCentres { file: file.clone() });
+                }
                 centres.push(read_centre(&file, line, text)?);
             }
         }

@@ -69,6 +69,28 @@ pub fn communities(
     Ok(blocks.into_network())
 }
 
+/// Mean number of links of such a network, in O(K) or, with a matrix, O(K²); what is no probability
+/// counts as it stands.
+pub fn expected_links(sizes: &[usize], probability: &LinkProbability) -> f64 {
+    let n: Vec<f64> = sizes.iter().map(|&size| size as f64).collect();
+    let within = |n: f64| 0.5 * n * (n - 1.0);
+    match probability {
+        LinkProbability::Uniform { within: p, between } => {
+            let inside: f64 = n.iter().copied().map(within).sum();
+            let all = within(n.iter().sum());
+            p * inside + between * (all - inside)
+        }
+        LinkProbability::Matrix(rows) => {
+            let entry = |a: usize, b: usize| rows.get(a).and_then(|row| row.get(b)).unwrap_or(&0.0);
+            let row = |a: usize| {
+                let between: f64 = (a + 1..n.len()).map(|b| entry(a, b) * n[a] * n[b]).sum();
+                entry(a, a) * within(n[a]) + between
+            };
+            (0..n.len()).map(row).sum()
+        }
+    }
+}
+
 pub(super) fn check_within(value: f64) -> Result<(), GeneratorError> {
     if is_probability(value) { Ok(()) } else { Err(GeneratorError::BadWithin { value }) }
 }

@@ -44,6 +44,18 @@ pub fn hierarchical(
     Ok(blocks.into_network())
 }
 
+/// Mean number of links of such a network; what is no probability counts as it stands.
+pub fn expected_hierarchical_links(
+    backbone: &Network,
+    size: usize,
+    within: f64,
+    factor: f64,
+) -> f64 {
+    let n = size as f64;
+    let weights: f64 = backbone.strengths().iter().sum();
+    within * 0.5 * n * (n - 1.0) * backbone.n_nodes() as f64 + 0.5 * factor * weights * n * n
+}
+
 fn check_factor(backbone: &Network, factor: f64) -> Result<(), GeneratorError> {
     if !(factor.is_finite() && factor >= 0.0) {
         return Err(GeneratorError::BadFactor { factor });

@@ -9,5 +9,5 @@ mod communities;
 mod hierarchical;
 mod trials;
 
-pub use communities::{LinkProbability, communities};
-pub use hierarchical::hierarchical;
+pub use communities::{LinkProbability, communities, expected_links};
+pub use hierarchical::{expected_hierarchical_links, hierarchical};

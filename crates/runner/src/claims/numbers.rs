@@ -129,7 +129,7 @@ impl Judge<'_> {
                 }
             }
             Quantity::LyapunovIsolated => vec![Some(findings.msf.isolated.mean)],
-            Quantity::SigmaC => vec![findings.msf.sigma_c().map(|zero| zero.sigma)],
+            Quantity::SigmaC => vec![findings.msf.stable.sigma_c().map(|zero| zero.sigma)],
             Quantity::CriticalCouplings => {
                 let of_mode = |mode: &usize| {
                     let found =
@@ -206,7 +206,7 @@ impl Judge<'_> {
         let findings = self.findings;
         match self.spec.of {
             Quantity::LyapunovIsolated => Some(findings.msf.isolated.standard_error),
-            Quantity::SigmaC => findings.msf.sigma_c().map(|zero| zero.standard_error),
+            Quantity::SigmaC => findings.msf.stable.sigma_c().map(|zero| zero.standard_error),
             Quantity::SimulatedOnset => {
                 findings.seen(&self.claimed_clusters())?.onset.uncertainty()
             }

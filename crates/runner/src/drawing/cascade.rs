@@ -9,7 +9,7 @@ use crate::plan::Plan;
 /// The states of a prediction, from strong coupling down.
 pub fn panel(plan: &Plan, findings: &Findings) -> CascadePanel {
     let states = &findings.cascade;
-    let before = std::iter::once(None).chain(states.iter().map(|state| Some(&state.clusters)));
+    let before = std::iter::once(None).chain(states.iter().map(|state| Some(&*state.clusters)));
     let state = |(state, before): (&clustering::State, Option<&Partition>)| CascadeState {
         epsilon: state.epsilon,
         clusters: clusters(plan, &state.clusters, before),

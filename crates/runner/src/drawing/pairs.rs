@@ -10,21 +10,23 @@ use crate::figures::{
 };
 use crate::findings::Findings;
 use crate::plan::Plan;
+use crate::problem::plain;
 use crate::simulated::Simulated;
+
+/// Modes whose eigenvectors are drawn where the experiment does not say.
+const DEFAULT_MODES: std::ops::RangeInclusive<usize> = 2..=4;
 
 /// The network, its eigenvectors, and for each ε (the largest first) both matrices.
 pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
-    let modes: Vec<Mode> = plan
-        .figure()
-        .eigenvectors
-        .iter()
-        .filter_map(|&mode| {
+    let modes: Vec<Mode> = shown_modes(plan, findings)
+        .into_iter()
+        .filter_map(|mode| {
             let components = findings.spectrum.eigenvectors.get(mode - 1)?.clone();
             Some(Mode { label: Label::math("v").subscript(&mode.to_string()), components })
         })
         .collect();
     let groups = groups(plan);
-    let matrices = descending(simulated).map(|position| {
+    let matrices = shown(simulated).map(|position| {
         let agreement = findings.agreement.get(position);
         [
             predicted(plan, findings, simulated, position),
@@ -61,7 +63,7 @@ pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figur
             grey_label: Label::text(grey),
         })
     };
-    let columns = descending(simulated).map(|position| {
+    let columns = shown(simulated).map(|position| {
         let agreement = findings.agreement.get(position);
         if let Some(regions) = agreement.and_then(|agreement| agreement.regions.as_ref()) {
             return colours(regions)
@@ -135,9 +137,18 @@ fn by_falling_size(cluster_of: &[Option<usize>], n_clusters: usize) -> Vec<usize
     place
 }
 
-/// The positions of a sweep, the largest ε first, as the paper orders its panels.
-fn descending(simulated: &Simulated) -> impl Iterator<Item = usize> {
-    (0..simulated.epsilon.len()).rev()
+/// The positions of a sweep that have a column, the largest ε first, as the paper orders its panels.
+fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
+    super::room::columns(simulated.epsilon.len()).into_iter()
+}
+
+/// The modes asked for, else those of [`DEFAULT_MODES`] that were computed, or the only one.
+fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
+    let computed = findings.spectrum.eigenvectors.len();
+    plan.figure().eigenvectors.clone().unwrap_or_else(|| {
+        let modes: Vec<usize> = DEFAULT_MODES.filter(|&mode| mode <= computed).collect();
+        if modes.is_empty() { vec![1] } else { modes }
+    })
 }
 
 /// δe_ij; zeros only where it was computed that no mode is unstable, and a word elsewhere.
@@ -229,5 +240,5 @@ fn groups(plan: &Plan) -> Vec<Group> {
 }
 
 fn epsilon(value: f64) -> Label {
-    Label::math("ε").with_math(&format!(" = {value}"))
+    Label::math("ε").with_math(&format!(" = {}", plain(value)))
 }

@@ -9,6 +9,7 @@ use xmlwriter::{Indent, Options, XmlWriter};
 use super::font::{FAMILY, Face};
 use super::label::Label;
 use super::style::{INK, Shape, Stroke};
+use crate::output::is_command;
 
 /// A place on the page: x to the right, y down.
 pub(super) type Point = [f64; 2];
@@ -323,10 +324,11 @@ impl Canvas {
         self.xml.write_attribute(name, &value);
     }
 
-    // The writer escapes `<` only, and XML has no place for most control characters.
+    // The writer escapes `<` only, and XML has no place for most control characters, nor for two more.
     fn text(&mut self, text: &str) {
+        let is_shown = |c: char| !is_command(c) && !matches!(c, '\u{fffe}' | '\u{ffff}');
         let shown: String =
-            text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+            text.chars().map(|c| if is_shown(c) { c } else { '\u{fffd}' }).collect();
         self.xml.set_preserve_whitespaces(true);
         self.xml.write_text(&shown.replace('&', "&amp;").replace('>', "&gt;"));
     }
@@ -354,9 +356,9 @@ mod tests {
     #[test]
     fn control_characters_become_replacement_characters() {
         let mut canvas = Canvas::new(10.0, 10.0, "");
-        canvas.label(&Label::text("a\u{1}\tb"), [1.0, 2.0], 8.0, Anchor::Start);
+        canvas.label(&Label::text("a\u{1}\tb\u{202e}\u{ffff}c"), [1.0, 2.0], 8.0, Anchor::Start);
         let svg = canvas.finish();
-        assert!(svg.contains("a\u{fffd}\u{fffd}b"));
+        assert!(svg.contains("a\u{fffd}\u{fffd}b\u{fffd}\u{fffd}c"));
         assert!(Document::parse(&svg).is_ok());
     }
 

@@ -40,7 +40,7 @@ fn series(style: usize, mode: &Mode) -> Series {
         style,
         x: (1..=mode.components.len()).map(|node| node as f64).collect(),
         y: mode.components.clone(),
-        spread: None,
+        ..Series::default()
     }
 }
 

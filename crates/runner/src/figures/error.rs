@@ -42,6 +42,12 @@ pub enum FigureError {
         /// Columns of the grid.
         n_columns: usize,
     },
+    /// A fault of the program itself.
+    #[error("panel {panel} met a fault of eigensync in drawing")]
+    Panicked {
+        /// Its letter.
+        panel: String,
+    },
     /// No room is left for the data once the labels are set.
     #[error("panel {panel} leaves {width:.0} pt × {height:.0} pt for its data; give it more room")]
     TooSmall {

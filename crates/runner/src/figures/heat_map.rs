@@ -73,16 +73,19 @@ impl HeatMapPanel {
         let Places { matrix, bar } = self.places(cell, range.unwrap_or([0.0, 1.0]), panel)?;
         self.draw_matrix(canvas, matrix, range)?;
         self.draw_axes(canvas, matrix);
+        // What has no values needs no colours to read them by.
+        match range {
+            Some(range) => self.draw_bar(canvas, bar, range)?,
+            None => {
+                let at = [matrix.left, matrix.top].map(|start| start + matrix.width() / 2.0);
+                canvas.label(&self.without_values, at, NOTE_SIZE, Anchor::Middle);
+            }
+        }
         let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
         let middle = (matrix.left + matrix.right) / 2.0;
         canvas.label(&self.title, [middle, baseline], NOTE_SIZE, Anchor::Middle);
-        // What has no values needs no colours to read them by.
-        if let Some(range) = range {
-            self.draw_bar(canvas, bar, range)?;
+        if range.is_some() {
             canvas.label(&self.bar_label, [bar.left, baseline], LABEL_SIZE, Anchor::Start);
-        } else {
-            let at = [middle, (matrix.top + matrix.bottom) / 2.0];
-            canvas.label(&self.without_values, at, NOTE_SIZE, Anchor::Middle);
         }
         Ok(())
     }

@@ -7,6 +7,8 @@ use super::font::{Face, text_width};
 
 /// Size of a subscript or superscript over that of its base.
 const SCRIPT_SCALE: f64 = 0.74;
+/// Longest run of text, in characters.
+const MOST_CHARS: usize = 40;
 /// How far a subscript sinks and a superscript rises, over the size of the base.
 const SUB_DROP: f64 = 0.22;
 const SUP_RISE: f64 = 0.38;
@@ -50,28 +52,28 @@ impl Label {
     /// Appends upright text.
     #[must_use]
     pub fn with_text(mut self, text: impl Into<String>) -> Self {
-        self.runs.push(Run::Text(text.into()));
+        self.runs.push(Run::Text(shortened(text.into())));
         self
     }
 
     /// Appends symbols.
     #[must_use]
     pub fn with_math(mut self, symbols: &str) -> Self {
-        self.runs.push(Run::Math(symbols.replace('-', "−")));
+        self.runs.push(Run::Math(shortened(symbols.replace('-', "−"))));
         self
     }
 
     /// Appends a subscript, set as symbols; straight after a superscript it stands below it.
     #[must_use]
     pub fn subscript(mut self, symbols: &str) -> Self {
-        *self.scripts(|sub, _| sub.is_empty()).0 = symbols.replace('-', "−");
+        *self.scripts(|sub, _| sub.is_empty()).0 = shortened(symbols.replace('-', "−"));
         self
     }
 
     /// Appends a superscript, set as symbols; straight after a subscript it stands above it.
     #[must_use]
     pub fn superscript(mut self, symbols: &str) -> Self {
-        *self.scripts(|_, sup| sup.is_empty()).1 = symbols.replace('-', "−");
+        *self.scripts(|_, sup| sup.is_empty()).1 = shortened(symbols.replace('-', "−"));
         self
     }
 
@@ -110,6 +112,15 @@ impl Label {
         }
         pieces
     }
+}
+
+/// Names come from files and may have any length: what no reader would finish ends in dots.
+fn shortened(mut text: String) -> String {
+    if let Some((end, _)) = text.char_indices().nth(MOST_CHARS) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
 }
 
 fn piece(text: String, face: Face, size: f64, rise: f64) -> Option<Piece> {

@@ -43,7 +43,7 @@ pub(super) fn size(entries: &[Entry]) -> [f64; 2] {
 
 /// Where each entry of a legend starts (left, middle of the row) when they fill rows from left
 /// to right, and the height of these rows; the upper left corner is at the origin.
-pub(super) fn strip(entries: &[Entry], width: f64) -> (Vec<Point>, f64) {
+fn strip(entries: &[Entry], width: f64) -> (Vec<Point>, f64) {
     let (mut left, mut middle) = (0.0, ROW / 2.0);
     let mut places = Vec::new();
     for entry in entries {
@@ -54,6 +54,39 @@ pub(super) fn strip(entries: &[Entry], width: f64) -> (Vec<Point>, f64) {
         left += entry.width() + STRIP_GAP;
     }
     (places, middle + ROW / 2.0)
+}
+
+/// Draws a legend in rows from left to right, its upper left corner at `corner`, and gives its
+/// height. Entries beyond the height there is are left out, and a last one tells how many.
+pub(super) fn draw_strip(
+    canvas: &mut Canvas,
+    entries: &[Entry],
+    [left, top]: Point,
+    [width, most_height]: [f64; 2],
+) -> f64 {
+    let (mut places, mut height) = strip(entries, width);
+    let n_shown = fitting(&places, most_height);
+    if n_shown < entries.len() {
+        places.truncate(n_shown);
+        let more = Label::text(format!("and {} more", entries.len() - n_shown));
+        let middle = places.last().map_or(ROW / 2.0, |place| place[1] + ROW);
+        let at = [left, top + middle + CAP_HEIGHT * NOTE_SIZE / 2.0];
+        canvas.label(&more, at, NOTE_SIZE, Anchor::Start);
+        height = middle + ROW / 2.0;
+    }
+    for (entry, [x, middle]) in entries.iter().zip(places) {
+        draw_entry(canvas, entry, [left + x, top + middle]);
+    }
+    height
+}
+
+/// How many entries stand within a height, a row left over for the number of those that do not.
+fn fitting(places: &[Point], most_height: f64) -> usize {
+    let within = |height: f64| places.iter().filter(|p| p[1] + ROW / 2.0 <= height).count();
+    match within(most_height) {
+        all if all == places.len() => all,
+        _ => within(most_height - ROW),
+    }
 }
 
 /// Upper left corner, inside the frame, of a box that covers none of `points`, as near to the
@@ -188,6 +221,14 @@ mod tests {
         assert_eq!(height, 2.0 * ROW);
         assert_eq!(places[2], [0.0, 1.5 * ROW]);
         assert_eq!(strip(&entries, 1.0).1, 3.0 * ROW);
+    }
+
+    #[test]
+    fn entries_beyond_the_height_leave_a_row_for_their_number() {
+        let places: Vec<Point> = (0..10).map(|row| [0.0, (f64::from(row) + 0.5) * ROW]).collect();
+        assert_eq!(fitting(&places, 10.0 * ROW), 10);
+        assert_eq!(fitting(&places, 5.0 * ROW), 4);
+        assert_eq!(fitting(&places, 0.0), 0);
     }
 
     #[test]

@@ -11,9 +11,7 @@ use super::label::Label;
 use super::legend::{self, Entry};
 use super::markers::{self, MarkerGroup};
 use super::series::{self, Series};
-use super::style::{
-    AXIS_WIDTH, INK, LABEL_SIZE, LINK_INK, NOTE_SIZE, SHADE, Stroke, TICK_SIZE, series_style,
-};
+use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, LINK_INK, NOTE_SIZE, SHADE, Stroke, TICK_SIZE};
 
 const TICK_LENGTH: f64 = 3.0;
 /// Room under the frame for numbers and the name of the axis.
@@ -26,6 +24,8 @@ const ABOVE: f64 = 8.0;
 const SPAN_ROW: f64 = 13.0;
 /// Height of the sample of a shaded span in the legend.
 const SHADE_SAMPLE: f64 = 7.0;
+/// Share of the height of a frame that a legend above it may take.
+const LEGEND_SHARE: f64 = 0.5;
 /// Least distance between numbers along x and along y.
 const X_SPACING: f64 = 28.0;
 const Y_SPACING: f64 = 16.0;
@@ -129,10 +129,9 @@ impl LinePanel {
         let entries = self.entries();
         let place = self.legend_place(&entries, frame, self.axes(ranges, frame));
         if place.is_none() && !entries.is_empty() {
-            let (places, height) = legend::strip(&entries, frame.width());
-            for (entry, [left, middle]) in entries.iter().zip(places) {
-                legend::draw_entry(canvas, entry, [frame.left + left, cell.top + middle]);
-            }
+            let most = LEGEND_SHARE * frame.height();
+            let height =
+                legend::draw_strip(canvas, &entries, [frame.left, cell.top], [frame.width(), most]);
             frame.top += height;
             check_room(frame, panel)?;
         }
@@ -184,8 +183,8 @@ impl LinePanel {
     /// Entries of the legend: curves and groups of markers that have a name.
     fn entries(&self) -> Vec<Entry<'_>> {
         let curves = self.series.iter().filter(|s| !s.label.is_empty()).map(|s| {
-            let (stroke, shape) = series_style(s.style);
-            Entry { has_line: !self.marks_only, stroke, shape: Some(shape), label: &s.label }
+            let (stroke, shape) = s.drawn_as();
+            Entry { has_line: !self.marks_only, stroke, shape, label: &s.label }
         });
         let lines = self.markers.iter().filter_map(|g| {
             let label = g.legend.as_ref()?;

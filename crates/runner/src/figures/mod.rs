@@ -50,10 +50,11 @@ pub use raster::png;
 pub use series::{Series, Spread, SpreadStyle};
 
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use canvas::{Anchor, Canvas, Rect};
 use font::CAP_HEIGHT;
-use style::LETTER_SIZE;
+use style::{LETTER_SIZE, NOTE_SIZE};
 
 /// Points of 1/72 inch in a millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
@@ -108,28 +109,60 @@ pub enum Content {
     Cascade(CascadePanel),
 }
 
+/// A figure as it could be drawn.
+#[derive(Debug)]
+pub struct Drawn {
+    /// SVG text; the same figure always gives the same bytes.
+    pub svg: String,
+    /// Why panels were left empty, one reason a panel.
+    pub left_out: Vec<FigureError>,
+}
+
+/// An error and the number of the panel that it is about; none where the whole page cannot be.
+type Failure = (Option<usize>, FigureError);
+
 impl Figure {
-    /// The figure as SVG text; the same figure always gives the same bytes.
+    /// The figure, a panel that cannot be drawn left empty but for a word that says so.
     ///
     /// # Errors
-    /// A [`FigureError`] that names the panel: data that are empty, of unequal lengths or out of
-    /// range, or a grid with too little room.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        self.check()?;
+    /// A [`FigureError`] of the page itself: its size, its grid, or no panels at all.
+    pub fn drawn(&self) -> Result<Drawn, FigureError> {
+        let mut failed: Vec<(usize, FigureError)> = Vec::new();
+        loop {
+            let is_empty = |panel: usize| failed.iter().any(|(failed, _)| *failed == panel);
+            match self.attempt(&is_empty) {
+                Ok(svg) => {
+                    let left_out = failed.into_iter().map(|(_, error)| error).collect();
+                    return Ok(Drawn { svg, left_out });
+                }
+                Err((Some(panel), error)) => failed.push((panel, error)),
+                Err((None, error)) => return Err(error),
+            }
+        }
+    }
+
+    /// The figure as SVG text, every panel of which can be drawn.
+    #[cfg(test)]
+    fn svg(&self) -> Result<String, FigureError> {
+        self.attempt(&|_| false).map_err(|(_, error)| error)
+    }
+
+    fn attempt(&self, is_empty: &dyn Fn(usize) -> bool) -> Result<String, Failure> {
+        self.check().map_err(|error| (None, error))?;
         let [width, height] = [self.width_mm, self.height_mm].map(|mm| mm * POINTS_PER_MM);
         let mut canvas = Canvas::new(width, height, &self.title);
         let columns = spans(&self.columns, width, COLUMN_GAP);
         let rows = spans(&self.rows, height, ROW_GAP);
         let cells: Vec<Rect> = self.panels.iter().map(|p| cell(p, &columns, &rows)).collect();
-        let margins = self.left_margins(&cells)?;
-        for ((panel, &cell), margin) in self.panels.iter().zip(&cells).zip(margins) {
+        let margins = self.left_margins(&cells, is_empty)?;
+        for (number, (panel, &cell)) in self.panels.iter().zip(&cells).enumerate() {
             let letter = &panel.letter;
-            match &panel.content {
-                Content::Lines(lines) => lines.draw(&mut canvas, cell, margin, letter)?,
-                Content::Network(network) => network.draw(&mut canvas, cell, letter)?,
-                Content::HeatMap(matrix) => matrix.draw(&mut canvas, cell, letter)?,
-                Content::Positions(nodes) => nodes.draw(&mut canvas, cell, letter)?,
-                Content::Cascade(cascade) => cascade.draw(&mut canvas, cell, letter)?,
+            if is_empty(number) {
+                let middle = [(cell.left + cell.right) / 2.0, (cell.top + cell.bottom) / 2.0];
+                canvas.label(&Label::text("not drawn"), middle, NOTE_SIZE, Anchor::Middle);
+            } else {
+                guarded(letter, || panel.content.draw(&mut canvas, cell, margins[number], letter))
+                    .map_err(|error| (Some(number), error))?;
             }
             let at = [cell.left, cell.top + CAP_HEIGHT * LETTER_SIZE + 1.0];
             canvas.label(&Label::text(letter.as_str()), at, LETTER_SIZE, Anchor::Start);
@@ -139,12 +172,19 @@ impl Figure {
 
     /// Room at the left of each panel, the same for all line panels that begin in one column, so
     /// that their frames stand flush.
-    fn left_margins(&self, cells: &[Rect]) -> Result<Vec<f64>, FigureError> {
+    fn left_margins(
+        &self,
+        cells: &[Rect],
+        is_empty: &dyn Fn(usize) -> bool,
+    ) -> Result<Vec<f64>, Failure> {
         let mut of_column = vec![0.0_f64; self.columns.len()];
-        for (panel, cell) in self.panels.iter().zip(cells) {
-            if let Content::Lines(lines) = &panel.content {
+        for (number, (panel, cell)) in self.panels.iter().zip(cells).enumerate() {
+            if let (Content::Lines(lines), false) = (&panel.content, is_empty(number)) {
+                let own =
+                    guarded(&panel.letter, || lines.left_margin(cell.height(), &panel.letter))
+                        .map_err(|error| (Some(number), error))?;
                 let margin = &mut of_column[panel.columns.start];
-                *margin = margin.max(lines.left_margin(cell.height(), &panel.letter)?);
+                *margin = margin.max(own);
             }
         }
         Ok(self.panels.iter().map(|p| of_column[p.columns.start]).collect())
@@ -179,6 +219,34 @@ impl Figure {
         }
         Ok(())
     }
+}
+
+impl Content {
+    fn draw(
+        &self,
+        canvas: &mut Canvas,
+        cell: Rect,
+        margin: f64,
+        letter: &str,
+    ) -> Result<(), FigureError> {
+        match self {
+            Self::Lines(lines) => lines.draw(canvas, cell, margin, letter),
+            Self::Network(network) => network.draw(canvas, cell, letter),
+            Self::HeatMap(matrix) => matrix.draw(canvas, cell, letter),
+            Self::Positions(nodes) => nodes.draw(canvas, cell, letter),
+            Self::Cascade(cascade) => cascade.draw(canvas, cell, letter),
+        }
+    }
+}
+
+/// A panic in drawing is a fault of ours, but what was computed is not lost to it. What was half
+/// drawn is thrown away with its page.
+fn guarded<T>(
+    panel: &str,
+    work: impl FnOnce() -> Result<T, FigureError>,
+) -> Result<T, FigureError> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|_| Err(FigureError::Panicked { panel: panel.into() }))
 }
 
 /// Start and end of each column or row on a page of this extent.

@@ -19,6 +19,8 @@ pub struct MsfCurve {
     pub standard_error: Vec<f64>,
     /// Intervals of σ with Λ < 0; none for an end beyond the σ that were looked at.
     pub stable: Vec<(f64, Option<f64>)>,
+    /// Zeros of Λ; other ends of intervals are only those of the look.
+    pub zeros: Vec<f64>,
 }
 
 /// The panel: band of ± 2 standard errors, zeros labelled σ_c to two decimals.
@@ -38,16 +40,11 @@ pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
             spread: Some(Spread { lower: ends(-1.0), upper: ends(1.0), drawn: SpreadStyle::Band }),
             ..Series::default()
         }],
-        notes: zeros(&curve.stable).into_iter().map(note).collect(),
+        notes: curve.zeros.iter().copied().map(note).collect(),
         // An open interval is shaded beyond the right edge of the frame, which cuts it.
         shaded: stable.map(|&(from, to)| [from, to.unwrap_or(2.0 * last.max(from))]).collect(),
         ..LinePanel::default()
     }
-}
-
-/// Ends of the stable intervals at which Λ changes sign: all but a lower end of 0.
-fn zeros(stable: &[(f64, Option<f64>)]) -> Vec<f64> {
-    stable.iter().flat_map(|&(from, to)| [(from > 0.0).then_some(from), to]).flatten().collect()
 }
 
 fn note(zero: f64) -> Note {
@@ -60,10 +57,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zeros_are_the_ends_at_which_the_sign_changes() {
-        assert_eq!(zeros(&[(8.17, None)]), [8.17]);
-        assert_eq!(zeros(&[(0.0, Some(0.5)), (1.0, Some(4.6))]), [0.5, 1.0, 4.6]);
-        assert_eq!(zeros(&[]), [0.0; 0]);
+    fn the_end_of_the_look_is_not_marked_as_a_zero() {
+        let panel = msf_panel(&MsfCurve {
+            sigma: vec![10.0, 20.0],
+            lambda: vec![-1.0, -1.0],
+            standard_error: vec![0.1, 0.1],
+            stable: vec![(10.0, None)],
+            zeros: vec![],
+        });
+        assert_eq!((panel.notes.len(), panel.shaded.len()), (0, 1));
     }
 
     #[test]
@@ -73,6 +75,7 @@ mod tests {
             lambda: vec![1.0, -1.0],
             standard_error: vec![0.25, 0.5],
             stable: vec![(0.5, None)],
+            zeros: vec![0.5],
         });
         let spread = panel.series[0].spread.as_ref().unwrap();
         assert_eq!((&spread.lower[..], &spread.upper[..]), (&[0.5, -2.0][..], &[1.5, 0.0][..]));

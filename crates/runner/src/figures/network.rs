@@ -26,6 +26,10 @@ const DOT: f64 = 3.2;
 const DOT_LEAD: f64 = 2.0 * DOT + 3.0;
 const ENTRY_GAP: f64 = 10.0;
 const LEGEND_ROW: f64 = 1.4 * NOTE_SIZE;
+/// Clusters that are named at all.
+const MOST_NAMED: usize = 60;
+/// Share of the height of a panel that its legend may take.
+const LEGEND_SHARE: f64 = 0.3;
 
 /// Nodes and links.
 #[derive(Clone, Debug, Default)]
@@ -59,11 +63,12 @@ impl NetworkPanel {
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
-        let legend = self.legend_rows(cell.width());
+        let (legend, n_more) = self.legend(cell);
         let legend_height = match legend.len() {
             0 => 0.0,
             n_rows => 1.7 * NOTE_SIZE + (n_rows - 1) as f64 * LEGEND_ROW,
         };
+        let legend_height = legend_height + if n_more > 0 { LEGEND_ROW } else { 0.0 };
         let room = Rect { bottom: cell.bottom - legend_height, ..cell }.grown(-MAX_RADIUS - 2.0);
         let (width, height) = (room.width(), room.height());
         if width < 20.0 || height < 20.0 {
@@ -73,6 +78,13 @@ impl NetworkPanel {
         let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
         links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
+        let mut cell = cell;
+        if n_more > 0 {
+            let middle = (cell.left + cell.right) / 2.0;
+            let at = [middle, cell.bottom - 0.7 * NOTE_SIZE + CAP_HEIGHT * NOTE_SIZE / 2.0];
+            canvas.label(&Label::text(format!("and {n_more} more")), at, NOTE_SIZE, Anchor::Middle);
+            cell.bottom -= LEGEND_ROW;
+        }
         self.draw_legend(canvas, cell, legend);
         Ok(())
     }
@@ -150,9 +162,22 @@ impl NetworkPanel {
         }
     }
 
+    /// The rows of the legend that leave the network the most of its cell, and how many clusters
+    /// are not named in them.
+    fn legend(&self, cell: Rect) -> (Vec<LegendRow>, usize) {
+        let mut rows = self.legend_rows(cell.width());
+        let most = (LEGEND_SHARE * cell.height() / LEGEND_ROW) as usize;
+        let n_clusters = self.cluster_labels.len();
+        if rows.len() > most || n_clusters > MOST_NAMED {
+            rows.truncate(most.saturating_sub(1));
+        }
+        let n_named = rows.last().map_or(0, |row| row.clusters.end);
+        (rows, n_clusters - n_named)
+    }
+
     /// Names of clusters in as few rows as fit into a width, about equally many in each.
     fn legend_rows(&self, room: f64) -> Vec<LegendRow> {
-        let n = self.cluster_labels.len();
+        let n = self.cluster_labels.len().min(MOST_NAMED);
         let width = |clusters: &Range<usize>| {
             let entries = self.cluster_labels[clusters.clone()].iter();
             let widths: f64 = entries.map(|l| DOT_LEAD + l.width(NOTE_SIZE)).sum();
@@ -273,6 +298,17 @@ mod tests {
         assert_eq!(lengths(153.0), [4, 3]);
         assert_eq!(lengths(10.0), [1; 7]);
         assert!(pair(1.0).legend_rows(100.0).is_empty());
+    }
+
+    #[test]
+    fn a_legend_of_very_many_clusters_leaves_room_for_the_network() {
+        let named = |n: usize| NetworkPanel {
+            cluster_labels: vec![Label::text("a cluster with a long name"); n],
+            ..pair(1.0)
+        };
+        let svg = svg_of(&named(1000)).unwrap();
+        assert!(svg.contains(">and 997 more<"), "{svg}");
+        assert!(!svg_of(&named(3)).unwrap().contains("more"));
     }
 
     #[test]

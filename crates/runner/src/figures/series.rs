@@ -5,10 +5,12 @@ use super::canvas::{Canvas, Point, Rect};
 use super::error::FigureError;
 use super::label::Label;
 use super::lines::Axes;
-use super::style::{Stroke, series_style};
+use super::style::{LINK_INK, Shape, Stroke, series_style};
 
 /// Marks on a curve, counted over its whole length, where it has more points than this.
 const MARKS: usize = 12;
+/// Width of the line of one curve of very many.
+const MUTED_WIDTH: f64 = 0.4;
 /// Radius of a mark.
 const MARK_RADIUS: f64 = 1.9;
 /// Marks of one series that stand alone, beyond which they become smaller.
@@ -23,6 +25,8 @@ pub struct Series {
     pub label: Label,
     /// Number of its colour, dashes and mark. Cluster `style` of a network has the same colour.
     pub style: usize,
+    /// Whether it is one of many that nobody could tell apart: thin, grey and without marks.
+    pub muted: bool,
     /// Values of x, in the order in which they are joined.
     pub x: Vec<f64>,
     /// Values of y, one for each x.
@@ -53,6 +57,15 @@ pub enum SpreadStyle {
 }
 
 impl Series {
+    /// The line, and the mark on it.
+    pub(super) fn drawn_as(&self) -> (Stroke, Option<Shape>) {
+        if self.muted {
+            return (Stroke::solid(LINK_INK, MUTED_WIDTH), None);
+        }
+        let (stroke, shape) = series_style(self.style);
+        (stroke, Some(shape))
+    }
+
     /// Every y that is to be seen.
     pub(super) fn y_values(&self) -> impl Iterator<Item = f64> {
         let spread = self.spread.iter().flat_map(|s| s.lower.iter().chain(&s.upper));
@@ -102,12 +115,15 @@ pub(super) fn draw(canvas: &mut Canvas, series: &[Series], axes: Axes) {
     for s in series {
         draw_spread(canvas, s, axes);
     }
-    for s in series {
-        let (stroke, _) = series_style(s.style);
+    let (muted, series): (Vec<&Series>, Vec<&Series>) = series.iter().partition(|s| s.muted);
+    for s in muted.iter().chain(&series) {
+        let (stroke, _) = s.drawn_as();
         for stretch in s.stretches(axes, &s.y) {
             let points: Vec<Point> = stretch.iter().map(|&(_, p)| p).collect();
-            if points.len() > 1 {
-                canvas.polyline(&points, stroke);
+            match points[..] {
+                [alone] if s.muted => canvas.circle(alone, MUTED_WIDTH, LINK_INK, stroke),
+                [_] => {}
+                _ => canvas.polyline(&points, stroke),
             }
         }
     }

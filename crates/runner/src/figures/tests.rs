@@ -6,7 +6,7 @@ use resvg::usvg::roxmltree::Document;
 fn curve(name: &str, style: usize, y: impl Fn(f64) -> f64) -> Series {
     let x: Vec<f64> = (0..=40).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
     let y = x.iter().map(|&x| y(x)).collect();
-    Series { label: Label::math("δx").subscript(name), style, x, y, spread: None }
+    Series { label: Label::math("δx").subscript(name), style, x, y, ..Series::default() }
 }
 
 fn errors_panel() -> LinePanel {

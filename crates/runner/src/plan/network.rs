@@ -1,11 +1,11 @@
 //! The network of an experiment, and whatever names its nodes or modes.
 
-use std::collections::BTreeSet;
+use std::collections::{HashMap, HashSet};
 
 use graph::Network;
 use graph::prepare::Report;
 
-use super::{ALL_PAIRS, Checker};
+use super::{ALL_PAIRS, Checker, SpectrumPlan};
 use crate::problem::{Problem, Result};
 use crate::spec::{FigureKind, Layout, Name};
 
@@ -36,14 +36,6 @@ impl Checker<'_> {
         })
     }
 
-    /// The nodes that a name stands for: the one it labels, or a group.
-    fn nodes(&self, key: &str, name: &Name, network: &Network) -> Result<Vec<usize>> {
-        match nodes_named(network, name) {
-            Some(nodes) => Ok(nodes),
-            None => self.label(key, name, network).map(|node| vec![node]),
-        }
-    }
-
     /// Clusters of node labels as lists of nodes: two nodes or more each, none twice.
     pub(super) fn clusters(
         &self,
@@ -51,19 +43,25 @@ impl Checker<'_> {
         named: &[Vec<Name>],
         network: &Network,
     ) -> Result<Vec<Vec<usize>>> {
-        let mut seen = BTreeSet::new();
+        if named.is_empty() {
+            return Ok(Vec::new());
+        }
+        let known = Names::of(network);
+        let mut seen = HashSet::new();
         let mut clusters = Vec::new();
         for names in named {
-            let nodes: Vec<usize> = names
-                .iter()
-                .map(|name| self.nodes(key, name, network))
-                .collect::<Result<Vec<_>>>()?
-                .concat();
+            let mut nodes = Vec::new();
+            for name in names {
+                match known.nodes(&name.0) {
+                    Some(of_name) => nodes.extend(of_name),
+                    None => nodes.push(self.label(key, name, network)?),
+                }
+            }
             if nodes.len() < 2 {
                 let names: Vec<_> = names.iter().map(|name| name.0.as_str()).collect();
                 let message = format!(
                     "has the cluster [{}]; a cluster has two nodes or more",
-                    names.join("")
+                    names.join(", ")
                 );
                 return Err(self.problem(key, message));
             }
@@ -77,11 +75,15 @@ impl Checker<'_> {
         Ok(clusters)
     }
 
-    /// Modes, counted from 1: no more of them than there are.
+    /// Modes, counted from 1: no more of them than there are, and none twice.
     pub(super) fn modes(&self, key: &str, modes: &[usize], most: usize) -> Result<()> {
-        match modes.iter().find(|mode| !(1..=most).contains(*mode)) {
+        if let Some(mode) = modes.iter().find(|mode| !(1..=most).contains(*mode)) {
+            return Err(self.modes_problem(key, *mode, most));
+        }
+        let mut seen = HashSet::new();
+        match modes.iter().find(|mode| !seen.insert(**mode)) {
             None => Ok(()),
-            Some(mode) => Err(self.modes_problem(key, *mode, most)),
+            Some(mode) => Err(self.problem(key, format!("has mode {mode} more than once"))),
         }
     }
 
@@ -109,7 +111,8 @@ impl Checker<'_> {
         ];
         bounds
             .iter()
-            .try_for_each(|(key, bound)| self.bound(&format!("regions.{key}"), *bound, true))
+            .try_for_each(|(key, bound)| self.bound(&format!("regions.{key}"), *bound, true))?;
+        self.region_ranges(regions, network.n_nodes())
     }
 
     /// Matrices and regions need what they show.
@@ -117,7 +120,7 @@ impl Checker<'_> {
         let kind = self.experiment.figure.kind;
         let (regions, n_nodes) = (self.experiment.regions.is_some(), network.n_nodes());
         let missing = match kind {
-            FigureKind::Sweep => None,
+            FigureKind::Sweep | FigureKind::None => None,
             _ if self.experiment.sweep.is_none() => Some("a [sweep]"),
             _ if n_nodes > ALL_PAIRS => Some("a network of up to 2000 nodes, whose pairs are kept"),
             FigureKind::Regions if !regions => Some("the thresholds of [regions]"),
@@ -131,7 +134,7 @@ impl Checker<'_> {
     }
 
     /// What the figure is told of nodes, modes and couplings must exist.
-    pub(super) fn figure(&self, network: &Network) -> Result<()> {
+    pub(super) fn figure(&self, network: &Network, spectrum: &SpectrumPlan) -> Result<()> {
         let (figure, n_nodes) = (&self.experiment.figure, network.n_nodes());
         self.figure_kind(network)?;
         if let Layout::At(positions) = &figure.layout {
@@ -139,13 +142,22 @@ impl Checker<'_> {
                 let message = format!("has {} positions for {n_nodes} nodes", positions.len());
                 return Err(self.problem("figure.layout", message));
             }
-            if let Some(node) = positions.iter().flatten().position(|x| !x.is_finite()) {
-                let label = &network.labels()[node / 2];
-                let message = format!("has a position of node \"{label}\" that is not finite");
-                return Err(self.problem("figure.layout", message));
-            }
+            let labelled = network.labels().iter().zip(positions);
+            labelled.into_iter().try_for_each(|(label, at)| self.position_range(label, *at))?;
         }
-        self.modes("figure.mark_modes", figure.mark_modes.as_deref().unwrap_or_default(), n_nodes)?;
+        let computed = spectrum.most_modes(n_nodes);
+        if let Some(modes) = &figure.eigenvectors {
+            if modes.is_empty() {
+                let problem = self.problem("figure.eigenvectors", "is empty, but needs a mode");
+                return Err(problem.hint("leave it out for modes 2, 3 and 4"));
+            }
+            self.modes("figure.eigenvectors", modes, computed)?;
+        }
+        self.modes(
+            "figure.mark_modes",
+            figure.mark_modes.as_deref().unwrap_or_default(),
+            computed,
+        )?;
         match figure.source_transitions.iter().find(|epsilon| !epsilon.is_finite()) {
             None => Ok(()),
             Some(epsilon) => {
@@ -153,6 +165,29 @@ impl Checker<'_> {
                 Err(self.problem("figure.source_transitions", message))
             }
         }
+    }
+}
+
+/// Nodes by their labels, and groups by their names, looked up many times.
+struct Names<'a> {
+    nodes: HashMap<&'a str, usize>,
+    groups: HashMap<&'a str, &'a [usize]>,
+}
+
+impl<'a> Names<'a> {
+    fn of(network: &'a Network) -> Self {
+        let labels = network.labels().iter().enumerate();
+        let groups = network.groups().iter();
+        Self {
+            nodes: labels.map(|(node, label)| (label.as_str(), node)).collect(),
+            groups: groups.map(|group| (group.name.as_str(), &group.nodes[..])).collect(),
+        }
+    }
+
+    /// The node with this label or, failing that, the nodes of the group of this name.
+    fn nodes(&self, name: &str) -> Option<Vec<usize>> {
+        let node = self.nodes.get(name).map(|&node| vec![node]);
+        node.or_else(|| self.groups.get(name).map(|nodes| nodes.to_vec()))
     }
 }
 

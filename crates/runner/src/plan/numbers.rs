@@ -1,6 +1,6 @@
 //! Numbers of an experiment: finite, of the right sign, and of a size that can be computed at all.
 
-use dynamics::{BLOCKS, Coupling, Schedule};
+use dynamics::{BLOCKS, Schedule};
 
 use super::{ALL_PAIRS, Checker};
 use crate::problem::{Result, plain};
@@ -12,10 +12,6 @@ const MOST_POINTS: f64 = 1e6;
 const MOST_STEPS: f64 = 1e16;
 /// The most time-averaged errors kept in memory, 16 bytes each.
 const MOST_ERRORS: f64 = 1e9;
-/// Largest rate × step of a coupling. RK4 damps exp(−κt) while κh is below 2.785 (E. Hairer &
-/// G. Wanner, Solving Ordinary Differential Equations II (1996), Sec. IV.2); the oscillator's own
-/// damping comes on top of the coupling's, and is left the difference.
-const RK4_STABLE: f64 = 2.0;
 
 impl Checker<'_> {
     /// A grid's values: finite, ascending, and at least so many.
@@ -166,28 +162,5 @@ impl Checker<'_> {
         }
         let steps = (schedule.transient + schedule.average) / schedule.step;
         self.feasible("sweep", runs * n * steps)
-    }
-
-    /// Refuses couplings so strong that RK4 itself makes them blow up: what it would show there, an
-    /// end of the stable set or an orbit that escapes, is no property of the oscillators.
-    pub(super) fn stable_rk4(
-        &self,
-        table: &str,
-        what: &str,
-        rate: f64,
-        (coupling, step): (Coupling, f64),
-    ) -> Result<()> {
-        // Only within one component is the coupling itself a rate of decay.
-        if coupling.from != coupling.to || rate * step <= RK4_STABLE {
-            return Ok(());
-        }
-        let message = format!(
-            "is {}, too long a step: {what} damps at a rate of up to {}, and RK4 holds only \
-             while rate × step is below {RK4_STABLE}",
-            plain(step),
-            plain(rate)
-        );
-        let hint = format!("take a step of {:.1e} or less, or weaker couplings", 1.0 / rate);
-        Err(self.problem(&format!("{table}.step"), message).hint(hint))
     }
 }

@@ -6,11 +6,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use graph::formats::{self, Layout, Rows};
-use graph::generators::{LinkProbability, communities, hierarchical};
+use graph::generators::{
+    LinkProbability, communities, expected_hierarchical_links, expected_links, hierarchical,
+};
 use graph::prepare::{Report, Selection, Step, Symmetrise, apply};
 use graph::{Group, Network, RawNetwork};
 
 use super::Checker;
+use crate::files;
 use crate::problem::{Problem, Result};
 use crate::progress::Watched;
 use crate::spec::{
@@ -80,6 +83,9 @@ impl Checker<'_> {
         let key = "network.file.path";
         let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
         let n_bytes = source.metadata().map_or(0, |metadata| metadata.len());
+        if matches!(spec.format, Format::EdgeList | Format::MatrixMarket | Format::Graphml) {
+            self.readable(key, n_bytes)?;
+        }
         self.stages.measured("reading", n_bytes, |progress| {
             self.read(spec, &path, BufReader::new(Watched { source, progress }))
         })
@@ -127,17 +133,19 @@ impl Checker<'_> {
         let path = self.beside(path);
         let named =
             |message: String| self.problem(key, format!("names {}{message}", path.display()));
-        let source = File::open(&path).map_err(|error| match (error.kind(), fetched_by) {
+        let source = files::open(&path).map_err(|error| match (error.kind(), fetched_by) {
             (std::io::ErrorKind::NotFound, Some(command)) => named(", which is not here".into())
                 .hint(format!("`{command}` brings it"))
                 .left_out(),
             (std::io::ErrorKind::NotFound, None) => named(", which does not exist".into())
                 .hint("paths are relative to the folder of the experiment file"),
-            _ => named(format!(", which cannot be opened: {error}")),
+            _ => match files::kind(&path) {
+                Ok(kind) if kind != files::REGULAR => {
+                    named(format!(", which is {kind}; expected {}", files::REGULAR))
+                }
+                _ => named(format!(", which cannot be opened: {error}")),
+            },
         })?;
-        if path.is_dir() {
-            return Err(named(", which is a folder; expected a file of links".into()));
-        }
         Ok((path, source))
     }
 
@@ -165,6 +173,8 @@ impl Checker<'_> {
                 return Err(self.problem(key, message));
             }
         };
+        let n_nodes = spec.sizes.iter().map(|&size| size as f64).sum();
+        self.generable(n_nodes, expected_links(&spec.sizes, &probability))?;
         communities(&spec.sizes, &probability, spec.seed.unwrap_or(self.experiment.seed))
             .map_err(|error| self.problem(key, format!("cannot be generated: {error}")))
     }
@@ -177,6 +187,9 @@ impl Checker<'_> {
         })?;
         let seed = spec.seed.unwrap_or(self.experiment.seed);
         let factor = spec.p_between_per_weight;
+        let n_nodes = spec.size as f64 * backbone.n_nodes() as f64;
+        let n_links = expected_hierarchical_links(&backbone, spec.size, spec.p_within, factor);
+        self.generable(n_nodes, n_links)?;
         hierarchical(&backbone, spec.size, spec.p_within, factor, seed)
             .map_err(|error| self.problem(key, format!("cannot be generated: {error}")))
     }
@@ -188,6 +201,15 @@ impl Checker<'_> {
                 let group = |(name, bounds): (&String, &[usize; 2])| {
                     let key = format!("groups.ranges.{name}");
                     let nodes = range(*bounds).map_err(|why| self.problem(&key, why))?;
+                    if nodes.end > network.n_nodes() {
+                        let message = format!(
+                            "names nodes {} to {}, but the network has {}",
+                            bounds[0],
+                            bounds[1],
+                            network.n_nodes()
+                        );
+                        return Err(self.problem(&key, message));
+                    }
                     Ok(Group { name: name.clone(), nodes: nodes.collect() })
                 };
                 ranges.iter().map(group).collect::<Result<_>>()?
@@ -201,7 +223,12 @@ impl Checker<'_> {
 
     fn groups_of_file(&self, path: &Path, n_nodes: usize) -> Result<Vec<Group>> {
         let (path, source) = self.open("groups.file.path", path, None)?;
-        let text = std::io::read_to_string(source).map_err(|error| {
+        let mut text = String::new();
+        let read = source.take(MOST_GROUP_BYTES + 1).read_to_string(&mut text);
+        let too_long = || std::io::Error::other(format!("more than {MOST_GROUP_BYTES} bytes"));
+        let read =
+            read.and_then(|n| if n as u64 > MOST_GROUP_BYTES { Err(too_long()) } else { Ok(n) });
+        read.map_err(|error| {
             self.problem("groups.file.path", format!("names {}: {error}", path.display()))
         })?;
         let names: Vec<&str> = text.lines().map(str::trim).collect();
@@ -221,6 +248,9 @@ impl Checker<'_> {
         Ok(groups.into_iter().map(|(name, nodes)| Group { name: name.into(), nodes }).collect())
     }
 }
+
+/// Longest file of groups, in bytes: names of 100 characters for five million nodes.
+const MOST_GROUP_BYTES: u64 = 512 << 20;
 
 /// First and last, counted from 1, as a range counted from 0.
 fn range([first, last]: [usize; 2]) -> std::result::Result<Range<usize>, String> {

@@ -4,7 +4,7 @@ use msf::StableRegion;
 use spectra::{ARPACK_NODES, Modes, Request, SolverChoice};
 
 use super::Checker;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::spec::{ModesSpec, SolverKind};
 
 /// The most nodes for the dense solver, which at this size needs 20 GB a matrix and a day.
@@ -14,36 +14,57 @@ const DENSE_MOST: usize = 50_000;
 /// limit of rounding at no cost to speak of.
 const LARGE_TOLERANCE: f64 = 1e-10;
 
+/// Up to this many nodes all modes are computed where nobody says how many: half a minute and 1 GB.
+const ALL_MODES: usize = 5000;
+
+/// Leading modes where nobody says how many, and all are not needed or too many.
+const LEADING_MODES: usize = 20;
+
 /// The modes to compute.
 pub struct SpectrumPlan {
-    /// Which modes, if that is known before the stable set is.
     request: Request,
-    /// ε at which all unstable modes are to be known.
-    unstable_at: Option<f64>,
+    wanted: ModesSpec,
 }
 
 impl SpectrumPlan {
-    /// What is asked of the solver: at ε the unstable modes are those with λ_k > −σ/ε, where the
-    /// stable set reaches from σ on without end.
-    pub fn request(&self, stable: &StableRegion) -> Result<Request> {
-        let Some(epsilon) = self.unstable_at else { return Ok(self.request) };
-        match stable.intervals.last() {
-            Some(interval) if interval.to.is_none() => {
-                Ok(Request { modes: Modes::Above(-interval.from / epsilon), ..self.request })
+    /// What is asked of the solver once the stable set is known. At ε the unstable modes are those
+    /// with λ_k > −σ/ε, where the stable set reaches from σ on; where it ends again, the fastest modes
+    /// are unstable as well, and are left out unless all are computed.
+    pub fn request(&self, stable: &StableRegion, n_nodes: usize) -> Request {
+        let lower = match &stable.intervals[..] {
+            [] => None,
+            [.., last] if stable.is_unbounded() => Some(last.lower()),
+            [first, ..] => Some(first.lower()),
+        };
+        let modes = match (self.wanted, lower) {
+            (ModesSpec::UnstableAt(epsilon), Some(lower)) if lower > 0.0 => {
+                Modes::Above(-lower / epsilon)
             }
-            _ => {
-                let message = "`spectrum.modes` asks for the modes that are unstable at some ε, but \
-                               the stable set ends: the smallest eigenvalues may be among them";
-                Err(Problem::new(message).hint("set `spectrum.modes` to \"all\""))
+            (ModesSpec::UnstableAt(_) | ModesSpec::Auto, _) => {
+                let few_will_do = stable.is_unbounded() || n_nodes > ALL_MODES;
+                if few_will_do { Modes::Leading(LEADING_MODES.min(n_nodes)) } else { Modes::All }
             }
-        }
+            (ModesSpec::All | ModesSpec::Leading(_), _) => self.request.modes,
+        };
+        Request { modes, ..self.request }
+    }
+
+    /// Largest relative residual of a mode.
+    pub fn tolerance(&self) -> f64 {
+        self.request.tolerance
+    }
+
+    /// The modes asked for, or by default.
+    pub fn wanted(&self) -> ModesSpec {
+        self.wanted
     }
 
     /// The most modes that there may be.
     pub fn most_modes(&self, n_nodes: usize) -> usize {
-        match self.request.modes {
-            Modes::Leading(modes) => modes,
-            _ if self.unstable_at.is_some() => self.request.max_modes.min(n_nodes),
+        match (self.wanted, self.request.modes) {
+            (ModesSpec::Leading(_), Modes::Leading(modes)) => modes,
+            (ModesSpec::UnstableAt(_), _) => self.request.max_modes.min(n_nodes),
+            (ModesSpec::Auto, _) if n_nodes > ALL_MODES => LEADING_MODES,
             _ => n_nodes,
         }
     }
@@ -52,9 +73,10 @@ impl SpectrumPlan {
 impl Checker<'_> {
     pub(super) fn spectrum(&self, n_nodes: usize) -> Result<SpectrumPlan> {
         let spec = &self.experiment.spectrum;
-        let mut unstable_at = None;
-        let modes = match spec.modes {
-            ModesSpec::All => Modes::All,
+        let by_size = if n_nodes > ALL_MODES { ModesSpec::Auto } else { ModesSpec::All };
+        let wanted = spec.modes.unwrap_or(by_size);
+        let modes = match wanted {
+            ModesSpec::All | ModesSpec::Auto => Modes::All,
             ModesSpec::Leading(0) => {
                 return Err(self.problem("spectrum.modes", "is 0, but must be 1 or more"));
             }
@@ -64,7 +86,6 @@ impl Checker<'_> {
             }
             ModesSpec::UnstableAt(epsilon) => {
                 self.positive("spectrum.modes.unstable_at", epsilon)?;
-                unstable_at = Some(epsilon);
                 Modes::All
             }
         };
@@ -86,9 +107,9 @@ impl Checker<'_> {
         let tolerance = spec.tolerance.unwrap_or(by_size);
         let plan = SpectrumPlan {
             request: Request { modes, solver, tolerance, ..Request::default() },
-            unstable_at,
+            wanted,
         };
-        if unstable_at.is_none() {
+        if matches!(wanted, ModesSpec::All | ModesSpec::Leading(_)) {
             self.solvable(solver, plan.most_modes(n_nodes), n_nodes)?;
         }
         Ok(plan)

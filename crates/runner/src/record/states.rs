@@ -1,6 +1,6 @@
 //! The predicted states in a summary: their ranges of ε, their clusters, and which of these are exact.
 
-use clustering::{ClusterKind, ClusterLabel, State, StateLabels};
+use clustering::{ClusterKind, ClusterLabel, ClusterRule, Coincidences, State, StateLabels};
 use serde::Serialize;
 
 use super::named;
@@ -14,7 +14,9 @@ const LISTED_NODES: usize = 5000;
 #[derive(Serialize)]
 pub struct StateRecord {
     pub epsilon: (f64, Option<f64>),
+    /// Those unstable anywhere in the range, and how many are so at one ε of it: the least, the most.
     pub unstable_modes: Vec<usize>,
+    pub n_unstable: (usize, usize),
     /// Number of clusters of two nodes or more, and of nodes in none.
     pub n_clusters: usize,
     pub n_alone: usize,
@@ -27,6 +29,9 @@ pub struct StateRecord {
     pub equitable: bool,
     /// By how much the most unequal of them differ, relative to their strength.
     pub largest_deviation: f64,
+    /// Clusters that chance alone explains: they are not among the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coincidences: Option<CoincidenceRecord>,
     /// These clusters, for networks of up to 5000 nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clusters: Option<Vec<Vec<String>>>,
@@ -60,13 +65,20 @@ pub struct LabelRecord {
     pub spread: f64,
     /// Largest difference of its nodes' total weights to one cluster, relative to their strength.
     pub deviation: f64,
+    /// Whether the spread exceeds the threshold; none for exact clusters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exceeds_threshold: Option<bool>,
+    /// The exact clusters that an approximate one holds.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub holds_exact: Vec<Vec<String>>,
 }
 
-impl From<&ClusterLabel> for LabelRecord {
-    fn from(label: &ClusterLabel) -> Self {
-        let ClusterLabel { kind, spread, deviation } = *label;
-        Self { kind: kind.name(), spread, deviation }
-    }
+/// How many clusters and nodes chance joined, and how many pairs it was expected to.
+#[derive(Serialize)]
+pub struct CoincidenceRecord {
+    pub n_clusters: usize,
+    pub found: usize,
+    pub expected: f64,
 }
 
 pub fn records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
@@ -89,9 +101,20 @@ fn record(
     let seen = seen.and_then(|clusters| findings.state_seen(at, clusters));
     let (simulated_onset, simulated_end) = seen.map(|Seen { onset, end }| (onset, end)).unzip();
     let shared = labels.labels.iter().filter(|label| label.kind != ClusterKind::Single);
+    let label = |(label, nodes): (&ClusterLabel, &Vec<usize>)| LabelRecord {
+        kind: label.kind.name(),
+        spread: label.spread,
+        deviation: label.deviation,
+        exceeds_threshold: (plan.rule != ClusterRule::Exact).then_some(label.exceeds_threshold),
+        holds_exact: named(&state.exact_parts(nodes), plan),
+    };
+    let coincidences = state.coincidences.map(|Coincidences { n_clusters, found, expected }| {
+        CoincidenceRecord { n_clusters, found, expected }
+    });
     StateRecord {
         epsilon: state.epsilon,
         unstable_modes: state.unstable_modes.iter().map(|mode| mode + 1).collect(),
+        n_unstable: state.n_unstable,
         n_clusters,
         n_alone,
         n_exact: labels.count(ClusterKind::Exact),
@@ -99,7 +122,8 @@ fn record(
         exact_tolerance: labels.exact_tolerance,
         equitable: labels.equitability.holds(),
         largest_deviation: labels.equitability.largest_deviation(),
-        labels: is_listed.then(|| shared.map(LabelRecord::from).collect()),
+        coincidences,
+        labels: clusters.as_ref().map(|clusters| shared.zip(clusters).map(label).collect()),
         simulated_onset,
         simulated_end,
         simulated_runs: findings.runs_in(state).map(|[runs, escaped]| RunsRecord { runs, escaped }),

@@ -4,12 +4,12 @@
 use std::path::PathBuf;
 
 use indexmap::IndexMap;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Bound, Name};
 
 /// Where the network comes from.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum NetworkSpec {
     /// A file.
@@ -21,7 +21,7 @@ pub enum NetworkSpec {
 }
 
 /// `[network.file]`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileSpec {
     /// Relative to the experiment file.
@@ -44,7 +44,7 @@ pub struct FileSpec {
 }
 
 /// Names of GraphML attributes; those left out are not read.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttributesSpec {
     /// Number of an edge that is its weight; every edge has weight 1 without it.
@@ -57,7 +57,7 @@ pub struct AttributesSpec {
     pub position: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[value(rename_all = "snake_case")]
 pub enum Format {
@@ -80,7 +80,7 @@ pub enum Format {
     Tvb,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowsSpec {
     /// Row i, column j: the strength with which j drives i.
@@ -91,7 +91,7 @@ pub enum RowsSpec {
 }
 
 /// `[network.communities]`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CommunitiesSpec {
     /// Number of nodes in each community; the groups are called C1, C2, …
@@ -106,7 +106,7 @@ pub struct CommunitiesSpec {
 }
 
 /// `[network.hierarchical]`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct HierarchicalSpec {
     /// Edge list of the small network, relative to the experiment file.
@@ -123,7 +123,7 @@ pub struct HierarchicalSpec {
 }
 
 /// One step of `prepare`, applied in the order written.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StepSpec {
     /// Keeps ranges of nodes, first and last counted from 1.
@@ -139,7 +139,7 @@ pub enum StepSpec {
     LargestComponent,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SymmetriseSpec {
     /// A link of weight 1 where there is one in either direction.
@@ -149,7 +149,7 @@ pub enum SymmetriseSpec {
 }
 
 /// `[groups.…]`: groups of nodes, in place of those that the network brings with it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum GroupsSpec {
     /// Name = [first, last], nodes counted from 1 after preparation.
@@ -162,7 +162,7 @@ pub enum GroupsSpec {
 }
 
 /// `[regions]`: the groups as regions under two thresholds each for prediction and simulation.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RegionsSpec {
     /// A region is predicted to synchronise where its mean δe is below this.

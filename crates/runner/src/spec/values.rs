@@ -4,10 +4,11 @@ use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// `"circle"`, `"force"`, `"grouped"`, or a list of positions `[x, y]`, one for each node in order.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Layout {
     /// On a circle in node order.
     Circle,
@@ -16,27 +17,32 @@ pub enum Layout {
     /// Every cluster on a circle of its own.
     Grouped,
     /// Where the file says.
+    #[serde(untagged)]
     At(Vec<[f64; 2]>),
 }
 
 /// A node label, written as a text or as a whole number.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
 pub struct Name(pub String);
 
 /// A grid of values: `{ from, to, points }`, evenly spaced with both ends, or a list.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
 pub enum Grid {
     Even(EvenGrid),
     List(Vec<f64>),
 }
 
 /// A distance or an error below which nodes count as together.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Bound {
-    /// A number, in the units of what it bounds.
-    Fixed(f64),
     /// `{ of_largest = … }`: a fraction of the largest over all pairs at the same ε.
     OfLargest(f64),
+    /// A number, in the units of what it bounds.
+    #[serde(untagged)]
+    Fixed(f64),
 }
 
 impl Bound {
@@ -55,7 +61,7 @@ struct OfLargest {
     of_largest: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvenGrid {
     pub from: f64,
@@ -81,16 +87,19 @@ impl Grid {
     }
 }
 
-/// `"all"`, a number of leading modes, or `{ unstable_at = … }`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// `"auto"`, `"all"`, a number of leading modes, or `{ unstable_at = … }`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ModesSpec {
+    /// All N where the stable set has an upper end, leading ones where it has none.
+    Auto,
     /// All N.
-    #[default]
     All,
-    /// So many of the largest eigenvalues.
-    Leading(u64),
     /// All that are unstable at this ε, or above.
     UnstableAt(f64),
+    /// So many of the largest eigenvalues.
+    #[serde(untagged)]
+    Leading(u64),
 }
 
 #[derive(Deserialize)]
@@ -100,12 +109,14 @@ struct UnstableAt {
 }
 
 /// `"exact"` or a number.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ThresholdSpec {
     /// δe_ij = 0 up to the solver's accuracy.
     #[default]
     Exact,
     /// Single linkage up to this δe_ij.
+    #[serde(untagged)]
     Within(f64),
 }
 
@@ -166,10 +177,11 @@ impl<'de> Deserialize<'de> for ModesSpec {
         impl<'de> Visitor<'de> for Which {
             type Value = ModesSpec;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"all\", a whole number or { unstable_at = … }")
+                f.write_str("\"auto\", \"all\", a whole number or { unstable_at = … }")
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<ModesSpec, E> {
                 match word {
+                    "auto" => Ok(ModesSpec::Auto),
                     "all" => Ok(ModesSpec::All),
                     _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
                 }

@@ -97,6 +97,70 @@ fn nodes_that_agree_by_accident_are_approximate_and_said_to_be() {
 }
 
 #[test]
+fn equal_sums_to_a_cluster_that_is_not_equitable_are_labelled_approximate() {
+    // 1 and 2 receive 0.2 each from {3, 4, 8}, which falls apart: 4 and 8 are linked, 3 is not.
+    let edges = "p 1\np 2\np' 1'\np' 2'\n4 8\n1 3 0.2\n2 4 0.2\n1' 3 0.2\n2' 4 0.2\n";
+    let place = predicted(edges, &["--matrix", "laplacian"]);
+    let state = place.json("results/net/summary.json")["cascade"][1].clone();
+    let clusters = state["clusters"].as_array().unwrap();
+    assert!(clusters.contains(&serde_json::json!(["1", "2"])), "{state}");
+    assert!(clusters.contains(&serde_json::json!(["1'", "2'"])), "{state}");
+    assert_eq!(state["n_exact"], 0, "{state}");
+}
+
+#[test]
+fn an_approximate_cluster_says_which_exact_ones_it_holds() {
+    let place = Workplace::new();
+    place.write("net.edges", "a 1\na 2\nb 3\nb 4\nb 5\na b\n");
+    let command = ["predict", "net.edges", "--oscillator", "lorenz", "--coupling", "x:y"];
+    let options = ["--matrix", "laplacian", "--quick", "--threshold", "10"];
+    let said = place.answer(&[&command[..], &options].concat()).with_status(0).stdout;
+    assert!(said.contains("holds 2 exact clusters: {1, 2} {3, 4, 5}"), "{said}");
+    let states = place.json("results/net/summary.json")["cascade"].clone();
+    assert_eq!((&states[0]["n_exact"], &states[1]["n_exact"]), (&1.into(), &0.into()));
+    let parts = serde_json::json!([["1", "2"], ["3", "4", "5"]]);
+    assert_eq!(states[1]["labels"][0]["holds_exact"], parts);
+    // Once the modes of the leaves against each other are unstable, nothing exact is left.
+    assert_eq!(states[2]["labels"][0].get("holds_exact"), None);
+}
+
+#[test]
+fn rows_of_the_cascade_count_the_modes_unstable_there() {
+    let place = Workplace::new();
+    place.write("net.edges", "1 2\n2 3\n3 4\n4 5\n5 6\n6 7\n7 8\n");
+    let command = ["predict", "net.edges", "--oscillator", "lorenz", "--coupling", "x:y"];
+    let options = ["--matrix", "laplacian", "--quick", "--threshold", "10"];
+    let said = place.answer(&[&command[..], &options].concat()).with_status(0).stdout;
+    assert!(said.contains("1 to 7"), "{said}");
+    let states = place.json("results/net/summary.json")["cascade"].clone();
+    assert_eq!(states[0]["n_unstable"], serde_json::json!([0, 0]));
+    assert_eq!(states[1]["n_unstable"], serde_json::json!([1, 7]));
+}
+
+#[test]
+fn every_node_of_an_exact_cluster_names_the_first_of_it() {
+    let nodes = rows(&six_nodes(), "clusters.csv");
+    let with: Vec<_> = nodes.iter().map(|row| (row[1].as_str(), row[4].as_str())).collect();
+    assert_eq!(with, [("1", "1"), ("2", "2"), ("3", "3"), ("4", "3"), ("5", "3"), ("6", "2")]);
+}
+
+#[test]
+fn a_threshold_hides_neither_the_loss_of_synchrony_nor_a_chain() {
+    let place = Workplace::new();
+    place.write("net.edges", "1 2\n2 3\n3 4\n4 5\n5 6\n6 7\n7 8\n");
+    let command = ["predict", "net.edges", "--oscillator", "lorenz", "--coupling", "x:y"];
+    let options = ["--matrix", "laplacian", "--quick", "--threshold", "0.2"];
+    let said = place.answer(&[&command[..], &options].concat()).with_status(0).stdout;
+    assert!(said.contains("beyond the threshold of 0.2"), "{said}");
+    let summary = place.json("results/net/summary.json");
+    let states = &summary["cascade"];
+    assert_eq!(states[0]["clusters"], states[1]["clusters"]);
+    assert_eq!(states[0]["epsilon"][0], summary["critical_couplings"][0]["epsilon"]);
+    let exceeds = |state: usize| states[state]["labels"][0]["exceeds_threshold"].clone();
+    assert_eq!((exceeds(0), exceeds(1)), (false.into(), true.into()));
+}
+
+#[test]
 fn exact_clusters_are_equitable_and_said_to_be_exact() {
     let place = six_nodes();
     let states = place.json("results/net/summary.json")["cascade"].clone();

@@ -3,10 +3,14 @@
 
 mod cascade;
 mod comparison;
+mod faults;
+mod figures;
 mod honest;
 mod odd_networks;
+mod place;
 mod predict;
 mod results;
+mod stability;
 #[path = "../support/mod.rs"]
 mod support;
 mod trouble;

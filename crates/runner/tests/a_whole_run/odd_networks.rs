@@ -102,13 +102,36 @@ fn weights_over_twelve_orders_of_magnitude_keep_their_clusters() {
     // Two pairs of strong links, as alike as they can be, and a weak link between them.
     let (place, said) = of("net.edges", "1 2 1e6\n2 3 1e-6\n3 4 1e6\n", &[], 0);
     check_says(&said.stdout, &["4 nodes, 3 links, connected"]);
-    let spectrum = place.json("results/net/summary.json")["eigenvalues"].clone();
-    // Rows of the normalized matrix sum to zero, so that λ_2 is −1e-12, to six digits.
-    let lambda_2 = spectrum[1].as_f64().unwrap();
-    assert!(lambda_2.abs() < 1e-9, "{lambda_2}");
-    check_says(&said.stderr, &["connected", "2 modes", "eigenvalue 0"]);
-    let states = place.json("results/net/summary.json")["cascade"].clone();
-    assert_eq!(states[0]["clusters"], json!([["1", "2"], ["3", "4"]]));
+    let summary = place.json("results/net/summary.json");
+    // The pairs against each other: −1e-6 (1/2e6 + 1/2e6).
+    let lambda_2 = summary["eigenvalues"][1].as_f64().unwrap();
+    assert!((lambda_2 / -1e-12 - 1.0).abs() < 1e-6, "{lambda_2}");
+    assert_eq!(summary["cascade"][0]["clusters"], json!([["1", "2", "3", "4"]]));
+    assert_eq!(summary["cascade"][1]["clusters"], json!([["1", "2"], ["3", "4"]]));
+    // The weak link parts each pair in the end.
+    assert_eq!(summary["cascade"][1]["labels"][0]["kind"], "approximate");
+    assert!(!said.stderr.contains("uncertain"), "{}", said.stderr);
+}
+
+#[test]
+fn a_link_twelve_decades_weaker_than_another_still_connects() {
+    // c against the pair: λ_2 = −3/2; global synchrony above σ_c / 1.5, with σ_c near 8.2.
+    let (place, said) = of("net.edges", "a b 1.4e12\nb c 1\n", &["--matrix", "laplacian"], 0);
+    check_says(&said.stdout, &["3 nodes, 2 links, connected"]);
+    let summary = place.json("results/net/summary.json");
+    assert!((summary["eigenvalues"][1].as_f64().unwrap() + 1.5).abs() < 1e-9, "{summary}");
+    assert_eq!(summary["cascade"][0]["clusters"], json!([["a", "b", "c"]]));
+    let from = summary["cascade"][0]["epsilon"][0].as_f64().unwrap();
+    let sigma_c = summary["msf"]["sigma_c"].as_f64().unwrap();
+    assert!((from * 1.5 / sigma_c - 1.0).abs() < 1e-9, "{from}");
+}
+
+#[test]
+fn an_eigenvalue_lost_in_rounding_is_said_to_be_uncertain() {
+    let (place, said) = of("net.edges", "a b 1e17\nb c 1\n", &["--matrix", "laplacian"], 0);
+    check_says(&said.stderr, &["lambda_2 = -1.5", "uncertain", "rounding"]);
+    let warnings = place.json("results/net/summary.json")["warnings"].clone();
+    assert!(warnings.as_array().unwrap().iter().any(|w| w["about"] == "eigenvalues"));
 }
 
 #[test]

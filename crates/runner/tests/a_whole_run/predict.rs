@@ -57,11 +57,17 @@ fn modes_unstable_at_a_coupling_carry_the_cascade_down_to_it() {
 }
 
 #[test]
-fn modes_unstable_at_a_coupling_need_a_stable_set_without_end() {
+fn modes_unstable_at_a_coupling_tell_what_they_can_where_the_stable_set_ends() {
     let place = with_network();
-    let rossler = ["--oscillator", "rossler", "--coupling", "x:x", "--quick", "--unstable-at", "1"];
-    let (_, said) = predict(&place, "six.edges", &rossler, 2);
-    assert!(said.contains("stable set ends") && said.contains("set `spectrum.modes`"), "{said}");
+    // λ = −2 and −3 lie above −0.187 / 0.05; λ_6 = −6 leaves the set above 4.61 / 6 = 0.77.
+    let rossler = ["--oscillator", "rossler", "--coupling", "x:x", "--matrix", "laplacian"];
+    let options = [&rossler[..], &["--quick", "--unstable-at", "0.05"]].concat();
+    let (_, said) = predict(&place, "six.edges", &options, 0);
+    assert!(said.contains("above epsilon = 0.76"), "{said}");
+    let summary = place.json("results/six/summary.json");
+    let first = &summary["cascade"][0];
+    assert!((first["epsilon"][1].as_f64().unwrap() - 0.768).abs() < 0.01, "{first}");
+    assert_eq!(first["n_clusters"], 1);
 }
 
 #[test]

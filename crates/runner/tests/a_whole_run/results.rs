@@ -182,9 +182,7 @@ fn results_are_the_same_to_the_last_bit_for_any_number_of_threads() {
 fn running_again_replaces_the_whole_folder() {
     let (place, _) = run(&tiny(), SIX_NODES, 0);
     let before = without_provenance(place.json("results/tiny/summary.json"));
-    place.write("results/tiny/left-over.csv", "");
     place.answer(&["run", "tiny.toml"]).with_status(0);
-    assert!(!place.names("results/tiny").contains(&"left-over.csv".to_owned()));
     assert_eq!(place.names("results"), ["tiny"]);
     assert_eq!(without_provenance(place.json("results/tiny/summary.json")), before);
 }
@@ -216,12 +214,27 @@ fn check_tells_network_and_cost_and_writes_nothing() {
 fn list_shows_titles_results_and_what_is_wrong() {
     let (place, _) = run(&tiny(), SIX_NODES, 0);
     place.write("bad.toml", "title = 1");
+    place.write("changed.toml", tiny().set("seed", "2").0);
+    place.write("fresh.toml", tiny().0);
+    place.write("rewired.toml", tiny().replace("networks/six-node", "networks/other").0);
+    place.write("networks/other.edges", SIX_NODES);
+    for name in ["changed", "rewired"] {
+        place.answer(&["run", &format!("{name}.toml"), "--quick"]).with_status(0);
+    }
+    place.write("changed.toml", tiny().0);
+    place.write("networks/other.edges", format!("{SIX_NODES}1 3\n"));
+    place.write("results/.fresh.unfinished/lock", "");
+    place.write("results/.fresh.unfinished/journal", "hours of work");
     place.write("notes.txt", "");
     let answer = place.answer(&["list", "."]).with_status(0);
     let line = |name: &str| {
         answer.stdout.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("{name}"))
     };
     assert!(line("tiny.toml").contains("[results] Six Lorenz oscillators, in a hurry"));
+    let stale = "[results of a quick run, stale: the experiment or its network has changed since]";
+    assert!(line("changed.toml").contains(stale), "{}", answer.stdout);
+    assert!(line("rewired.toml").contains(stale), "{}", answer.stdout);
+    assert!(line("fresh.toml").contains("[unfinished: run it again"), "{}", answer.stdout);
     assert!(line("bad.toml").contains("cannot be read: "), "{}", answer.stdout);
     assert!(!answer.stdout.contains("notes.txt"));
 }
@@ -276,4 +289,41 @@ fn halves_of_the_six_nodes_are_regions_that_synchronise_until_they_part() {
     let falling = experiment.replace("rises", "falls");
     place.write("tiny.toml", &falling.0);
     place.answer(&["run", "tiny.toml"]).with_status(1);
+}
+
+#[test]
+fn a_summary_holds_every_parameter_that_was_used_and_the_version_of_its_layout() {
+    let place = Workplace::new();
+    let experiment = tiny().set("prepare", "[\"largest_component\", { symmetrise = \"mean\" }]");
+    place.write(
+        "tiny.toml",
+        experiment.set("msf.average", "1000.0").set("sweep.average", "400.0").0,
+    );
+    place.answer(&["run", "tiny.toml", "--quick"]).with_status(0);
+    let summary = place.json("results/tiny/summary.json");
+    assert_eq!(summary["layout"], 1);
+    let parameters = &summary["parameters"];
+    for (pointer, expected) in [
+        ("/oscillator/lorenz/r", json!(35.0)),
+        ("/network/file/format", json!("edge_list")),
+        ("/network/file/rows", json!("driven")),
+        ("/spectrum/modes", json!("all")),
+        ("/spectrum/tolerance", json!(1e-12)),
+        // A tenth of what the file says.
+        ("/msf/average", json!(100.0)),
+        ("/sweep/average", json!(40.0)),
+        ("/msf/renormalise", json!(0.5)),
+        ("/sweep/kick", json!(1e-14)),
+        ("/sweep/stride", json!(10)),
+        ("/sweep/method", json!("rk4")),
+        ("/sweep/tolerance", json!(null)),
+        ("/sweep/component", json!("x")),
+        ("/prediction/threshold", json!("exact")),
+        ("/figure/kind", json!("sweep")),
+    ] {
+        assert_eq!(parameters.pointer(pointer), Some(&expected), "{pointer}");
+    }
+    let steps = summary["network"]["preparation"].as_array().unwrap();
+    let steps: Vec<_> = steps.iter().map(|step| step["step"].clone()).collect();
+    assert_eq!(steps, [json!("largest_component"), json!({ "symmetrise": "mean" })]);
 }

@@ -1,8 +1,11 @@
 //! Bad input through the command: one clear message that names the file and the key or line, exit
 //! status 2, nothing on standard output, no results.
 
+mod abuse;
 mod claims;
+mod effects;
 mod keys;
+mod mutated;
 mod networks;
 mod numbers;
 #[path = "../support/mod.rs"]

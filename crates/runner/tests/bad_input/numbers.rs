@@ -21,7 +21,8 @@ fn steps_and_times_must_be_positive() {
         }
     }
     for key in ["sweep.average", "sweep.tolerance", "sweep.synchronised_below"] {
-        check_refused(&tiny().set(key, "0"), &[key, "is 0, but must be finite and above zero"]);
+        let adaptive = tiny().set("sweep.method", "\"dopri5\"");
+        check_refused(&adaptive.set(key, "0"), &[key, "is 0, but must be finite and above zero"]);
     }
     for key in ["msf.transient", "sweep.transient"] {
         check_refused(&tiny().set(key, "-1"), &[key, "is -1, but must be finite and not negative"]);
@@ -143,18 +144,39 @@ fn times_that_no_machine_will_ever_compute_are_refused() {
 
 #[test]
 fn a_step_too_long_for_its_coupling_is_refused() {
-    // x into x damps a perturbation at the rate σ itself. Let through, σ = 270 would have Λ = 2.5 and
+    // x into x damps a perturbation at the rate σ itself. Let through, σ = 300 would have Λ > 0 and
     // the stable set an upper end near 268, where (σ + α) h = 2.785: the integrator's, not Lorenz's.
     let x_into_x = || tiny().set("coupling.to", "\"x\"");
     check_refused(
-        &x_into_x().set("msf.sigma", "[0, 270]"),
-        &["`msf.step` is 0.01, too long a step", "a rate of up to 270", "hint: take a step of"],
+        &x_into_x().set("msf.sigma", "[0, 300]"),
+        &["`msf.step` is 0.01, too long for RK4 at sigma = 300", "hint: take a step of 0.00"],
     );
-    // The strongest node, 2, has the strength 3.5.
+    // λ_6 = −6, although the strongest node has a strength of 3.5 only.
     check_refused(
-        &x_into_x().set("sweep.epsilon", "[1, 80]"),
-        &["`sweep.step` is 0.01, too long a step", "a rate of up to 280"],
+        &x_into_x().set("sweep.epsilon", "[1, 50]"),
+        &["`sweep.step` is 0.01, too long for RK4 at sigma = 300, epsilon = 50 times |λ_N| = 6"],
     );
+}
+
+#[test]
+fn a_step_too_long_is_refused_whichever_component_enters_which() {
+    // x into y makes pairs of rates ±i √(ασ): RK4 ends at √(ασ) h = 2√2, or σ = 8000.
+    check_refused(
+        &tiny().set("msf.sigma", "[0, 10000]"),
+        &["`msf.step` is 0.01, too long for RK4 at sigma = 10000", "it holds up to sigma = 8"],
+    );
+    check_refused(
+        &tiny().set("sweep.epsilon", "[1, 2000]"),
+        &["`sweep.step` is 0.01, too long for RK4", "|λ_N| = 6", "dop853"],
+    );
+}
+
+#[test]
+fn an_adaptive_method_takes_its_own_steps() {
+    let adaptive = tiny().set("sweep.epsilon", "[2000]").and("").set("sweep.method", "\"dop853\"");
+    let place = Workplace::new();
+    place.write("tiny.toml", &adaptive.0);
+    place.answer(&["check", "tiny.toml"]).with_status(0);
 }
 
 #[test]

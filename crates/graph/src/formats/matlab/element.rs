@@ -30,6 +30,8 @@ pub(super) struct Bytes<'a> {
     source: &'a mut dyn Read,
     offset: u64,
     pub(super) order: ByteOrder,
+    /// Numbers of unknown count that are read at most.
+    most_numbers: u64,
 }
 
 /// Type and length of an element, and the data that share the tag.
@@ -41,7 +43,12 @@ pub(super) struct Tag {
 
 impl<'a> Bytes<'a> {
     pub(super) fn new(source: &'a mut dyn Read, offset: u64, order: ByteOrder) -> Self {
-        Self { source, offset, order }
+        Self { source, offset, order, most_numbers: MAX_ENTRIES as u64 }
+    }
+
+    /// The same where no more numbers than so many are to be kept.
+    pub(super) fn keeping(self, most_numbers: u64) -> Self {
+        Self { most_numbers: most_numbers.min(self.most_numbers), ..self }
     }
 
     /// Bytes before the next one.
@@ -163,7 +170,15 @@ impl<'a> Bytes<'a> {
         Ok(data.chunks_exact(4).map(|w| self.word([w[0], w[1], w[2], w[3]])).collect())
     }
 
-    /// Numbers of any storage type: `count` of them, or, without it, at most [`MAX_ENTRIES`].
+    /// Refuses so many numbers, if they are to be kept and are too many.
+    pub(super) fn check_kept(&self, found: u64, what: &'static str) -> Result<(), MatlabError> {
+        if found <= self.most_numbers {
+            return Ok(());
+        }
+        Err(MatlabError::TooLong { offset: self.offset, what, found, most: self.most_numbers })
+    }
+
+    /// Numbers of any storage type: `count` of them, or, without it, at most as many as are kept.
     pub(super) fn numbers(
         &mut self,
         count: Option<u64>,
@@ -179,10 +194,10 @@ impl<'a> Bytes<'a> {
         let width = number.width() as u64;
         let (what, found) = (expected, tag.length / width);
         let count = match count {
-            None if found > MAX_ENTRIES as u64 => {
-                return Err(MatlabError::TooLong { offset, what, found });
+            None => {
+                self.check_kept(found, what)?;
+                found
             }
-            None => found,
             Some(count) => count,
         };
         if count.checked_mul(width) != Some(tag.length) {

@@ -14,17 +14,20 @@ use flate2::read::ZlibDecoder;
 use thiserror::Error;
 
 use self::element::{Bytes, COMPRESSED, Class, MATRIX, Tag, Variable};
-use super::archive::{Limited, MAX_UNPACKED_BYTES, listed};
+use super::archive::{Limited, MAX_UNPACKED_BYTES, listed, most_kept};
 use super::binary::{ByteOrder, fill};
 use super::matrix::MatrixBuilder;
 use super::text::quoted;
-use super::{Layout, MAX_ENTRIES, MatrixError};
+use super::{Layout, MatrixError};
 use crate::RawNetwork;
 
 const HEADER_BYTES: u64 = 128;
 
 /// Most names of variables that are kept to be listed in an error.
 const MAX_NAMES: usize = 1000;
+
+/// Most numbers of one part of a compressed sparse matrix; larger ones can be saved uncompressed.
+const MAX_UNPACKED_NUMBERS: u64 = 1 << 25;
 
 /// Why a MAT-file could not be read. Offsets count bytes from the beginning of the file, or,
 /// within [`MatlabError::InVariable`] of a compressed one, of what it unpacks to.
@@ -97,7 +100,9 @@ pub enum MatlabError {
         value: f64,
     },
     /// More numbers than a sparse matrix may have.
-    #[error("byte {offset}: found {found} {what}; expected {MAX_ENTRIES} at most")]
+    #[error(
+        "byte {offset}: found {found} {what}; expected {most} at most in a file of this length"
+    )]
     TooLong {
         /// Where the element begins.
         offset: u64,
@@ -105,6 +110,8 @@ pub enum MatlabError {
         what: &'static str,
         /// How many there are.
         found: u64,
+        /// Most numbers that would be kept.
+        most: u64,
     },
     /// A file without the variable asked for.
     #[error("expected a variable called `{wanted}`; the file holds: {found}")]
@@ -174,7 +181,7 @@ pub fn read(
         }
         bytes.within(tag.length, |content| {
             let found = match tag.kind {
-                COMPRESSED => search.unpack(content, order),
+                COMPRESSED => search.unpack(content, tag.length, order),
                 _ => search.look_at(&mut Bytes::new(content, offset + 8, order)),
             };
             found.map_err(|error| MatlabError::InVariable { offset, error: Box::new(error) })
@@ -211,8 +218,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// A variable that is compressed as a whole.
-    fn unpack(&mut self, packed: &mut dyn Read, order: ByteOrder) -> Result<(), MatlabError> {
-        let mut content = Limited { source: ZlibDecoder::new(packed), left: MAX_UNPACKED_BYTES };
+    fn unpack(
+        &mut self,
+        packed: &mut dyn Read,
+        packed_bytes: u64,
+        order: ByteOrder,
+    ) -> Result<(), MatlabError> {
+        let mut content = Limited::new(ZlibDecoder::new(packed), MAX_UNPACKED_BYTES);
         let expected = "a variable within the compressed element";
         let length = match Bytes::new(&mut content, 0, order).next_tag()? {
             Some(tag) if tag.kind == MATRIX => tag.length,
@@ -222,7 +234,10 @@ impl Search<'_> {
             None => return Err(MatlabError::Truncated { offset: 0, expected }),
         };
         let had_matrix = self.matrix.is_some();
-        self.look_at(&mut Bytes::new(&mut content.by_ref().take(length), 8, order))?;
+        let mut unpacked = content.by_ref().take(length);
+        // The length of the packed element is a claim as well.
+        let most = most_kept(packed_bytes).min(MAX_UNPACKED_NUMBERS);
+        self.look_at(&mut Bytes::new(&mut unpacked, 8, order).keeping(most))?;
         // The checksum stands at the end; what is not wanted need not be unpacked so far.
         if self.matrix.is_some() != had_matrix {
             io::copy(&mut content, &mut io::sink())?;
@@ -324,6 +339,7 @@ fn vector(
     expected: &'static str,
 ) -> Result<Vec<f64>, MatlabError> {
     let mut numbers = Vec::new();
+    bytes.check_kept(count.unwrap_or(0), expected)?;
     bytes.numbers(count, expected, |_, number| {
         numbers.push(number);
         Ok(())

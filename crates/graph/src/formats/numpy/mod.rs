@@ -14,7 +14,7 @@ use std::io::{self, Read, Seek};
 use thiserror::Error;
 
 use self::header::{Element, Header};
-use super::archive::{Archive, listed};
+use super::archive::{Archive, MAX_UNPACKED_BYTES, listed, most_kept};
 use super::binary::{Interrupted, Number, fill, read_numbers};
 use super::matrix::MatrixBuilder;
 use super::text::quoted;
@@ -98,10 +98,12 @@ pub enum NumpyError {
         expected: u128,
     },
     /// Longer than any index or value list of a network that is read.
-    #[error("the array has {length} elements; expected {MAX_ENTRIES} at most")]
+    #[error("the array has {length} elements; expected {most} at most in a file of this length")]
     TooLong {
         /// Number of elements.
         length: u64,
+        /// Most elements that would be kept.
+        most: u64,
     },
     /// An archive that does not say which of its arrays is meant.
     #[error("expected the name of one array, since the archive holds: {found}")]
@@ -232,6 +234,11 @@ impl<R: Read + Seek> Arrays<R> {
         Ok(Self { archive, names, places })
     }
 
+    /// Elements that are kept of one array, at most.
+    fn most_kept(&self) -> u64 {
+        most_kept(self.archive.packed_bytes()).min(MAX_ENTRIES as u64)
+    }
+
     fn is_sparse_matrix(&self) -> bool {
         ["format", "shape", "data"].iter().all(|&name| self.names.iter().any(|n| n == name))
     }
@@ -246,7 +253,7 @@ impl<R: Read + Seek> Arrays<R> {
             let (wanted, found) = (quoted(name), listed(&self.names));
             return Err(NumpyError::NoArray { wanted, found });
         };
-        let mut content = self.archive.open(self.places[place])?;
+        let mut content = self.archive.open(self.places[place], MAX_UNPACKED_BYTES)?;
         read(&mut content)
             .map_err(|error| NumpyError::InArray { name: quoted(name), error: Box::new(error) })
     }
@@ -292,12 +299,12 @@ impl<'a> Array<'a> {
     }
 
     /// All elements of an array of one dimension.
-    fn vector(self) -> Result<Vec<f64>, NumpyError> {
+    fn vector(self, most: u64) -> Result<Vec<f64>, NumpyError> {
         let &[length] = self.header.shape.as_slice() else {
             return Err(self.wrong_dimensions(1));
         };
-        if length > MAX_ENTRIES as u64 {
-            return Err(NumpyError::TooLong { length });
+        if length > most {
+            return Err(NumpyError::TooLong { length, most });
         }
         // No capacity is reserved: the length is only a claim until the elements are there.
         let mut elements = Vec::new();

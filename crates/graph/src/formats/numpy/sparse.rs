@@ -107,7 +107,8 @@ fn coordinates<R: Read + Seek>(
 }
 
 fn vector<R: Read + Seek>(arrays: &mut Arrays<R>, name: &str) -> Result<Vec<f64>, NumpyError> {
-    arrays.read(name, |source| Array::open(source)?.vector())
+    let most = arrays.most_kept();
+    arrays.read(name, |source| Array::open(source)?.vector(most))
 }
 
 fn expect_length(array: &'static str, expected: u64, found: usize) -> Result<(), NumpyError> {

@@ -1,0 +1,102 @@
+//! How far apart the nodes of each cluster are: δe, and the distance in the unstable subspace, in every
+//! set of unstable modes that the cluster outlasts.
+//!
+//! One node of each cluster is held against all others of it, mode by mode, so that nodes on their own
+//! cost nothing and a set of modes that holds the one before costs no more than the modes it adds.
+//! Distances are pseudometrics: no two nodes are further apart than twice the largest distance from
+//! one of them.
+
+use spectra::Spectrum;
+
+use crate::distance::{chosen_eigenspaces, transverse};
+use crate::exact::are_among;
+use crate::tolerance::{check_tolerance, exact_tolerance};
+use crate::{ClusteringError, Partition, mean_over_bases};
+
+/// How far the nodes of a cluster are from one of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spread {
+    /// Largest δe under any of the sets.
+    pub(crate) distance: f64,
+    /// The node that is so far away.
+    pub(crate) farthest: usize,
+    /// Whether under every set all are within [`crate::EigenvectorDistance::exact_tolerance`] in the
+    /// unstable subspace, and that is small enough to tell.
+    pub(crate) is_rounding: bool,
+}
+
+/// The spreads of all clusters under sets of unstable modes, which ascend.
+///
+/// - `from`: one node of each cluster, the one that distances are from.
+///
+/// # Errors
+/// Those of [`crate::EigenvectorDistance::new`] for each of the sets.
+pub(crate) fn spreads(
+    spectrum: &Spectrum,
+    partition: &Partition,
+    from: &[usize],
+    sets: &[&[usize]],
+) -> Result<Vec<Spread>, ClusteringError> {
+    let mut spreads: Vec<Spread> = from
+        .iter()
+        .map(|&farthest| Spread { distance: 0.0, farthest, is_rounding: true })
+        .collect();
+    let pairs = partition.cluster_of().iter().enumerate();
+    let mut pairs: Vec<Pair> = pairs
+        .filter(|&(node, &cluster)| node != from[cluster])
+        .map(|(node, &cluster)| Pair { cluster, node, from: from[cluster], sum: 0.0, square: 0.0 })
+        .collect();
+    let mut before: &[usize] = &[];
+    for &modes in sets {
+        if !are_among(before, modes) {
+            pairs.iter_mut().for_each(|pair| (pair.sum, pair.square) = (0.0, 0.0));
+            before = &[];
+        }
+        let chosen = chosen_eigenspaces(spectrum, modes)?;
+        let tolerance = exact_tolerance(spectrum, &chosen);
+        let is_known = check_tolerance(tolerance, partition.n_nodes()).is_ok();
+        for &space in &chosen {
+            if before.binary_search(&transverse(&spectrum.eigenspaces[space]).start).is_err() {
+                add(spectrum, space, &mut pairs);
+            }
+        }
+        let n_modes = modes.len().max(1) as f64;
+        for Pair { cluster, node, sum, square, .. } in &pairs {
+            let spread = &mut spreads[*cluster];
+            spread.is_rounding &= is_known && square.sqrt() <= tolerance;
+            let distance = sum / n_modes;
+            if distance > spread.distance {
+                (spread.distance, spread.farthest) = (distance, *node);
+            }
+        }
+        before = modes;
+    }
+    Ok(spreads)
+}
+
+/// A node and the one of its cluster that distances are from.
+struct Pair {
+    cluster: usize,
+    node: usize,
+    from: usize,
+    /// m δe.
+    sum: f64,
+    /// ‖P(e_i − e_j)‖².
+    square: f64,
+}
+
+/// Adds the part of one eigenspace to all pairs.
+fn add(spectrum: &Spectrum, space: usize, pairs: &mut [Pair]) {
+    let modes = spectrum.eigenspaces[space].clone();
+    let factor = mean_over_bases(transverse(&modes).len());
+    let vectors = &spectrum.eigenvectors[modes];
+    for pair in pairs {
+        let difference = |v: &Vec<f64>| v[pair.node] - v[pair.from];
+        let norm = match vectors {
+            [v] => difference(v).abs(),
+            _ => vectors.iter().map(|v| difference(v).powi(2)).sum::<f64>().sqrt(),
+        };
+        pair.sum += factor * norm;
+        pair.square += norm * norm;
+    }
+}

@@ -1,0 +1,220 @@
+//! The place of an experiment's results, `results/ID`: whose it is, where a run puts its work
+//! together, and how that gets into its place.
+//!
+//! A run works in the hidden folder `results/.ID.unfinished`, which it locks before it computes
+//! anything. Files are written into `files` in it; when all are there and flushed, `files` is renamed
+//! `whole`, exchanged in one step with what is in place, and the old results are cleared away. So a
+//! run that is killed, at whatever moment, leaves whole results in place, and what it has left is
+//! healed by the next: `whole` is put in place or cleared away, `files` are written anew.
+//!
+//! Only results of the same experiment are ever replaced (`standing`). What a user put beside them,
+//! or edited, comes along (`carry`).
+
+mod carry;
+mod exchange;
+mod folder;
+mod found;
+mod leftovers;
+mod lock;
+mod manifest;
+mod name;
+mod standing;
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::output::tell;
+use crate::problem::{Problem, Result};
+
+pub use folder::Folder;
+pub use found::Found;
+use lock::Lock;
+pub use name::id;
+pub use standing::{Head, Origin};
+use standing::{Ours, standing};
+
+/// Where files are written, in the hidden folder.
+const FILES: &str = "files";
+/// The same when all are there; after an exchange the older results.
+const WHOLE: &str = "whole";
+/// The older results, where the system cannot exchange two folders in one step.
+const REPLACED: &str = "replaced";
+
+/// A place for results that this run alone writes to.
+pub struct Place {
+    results: PathBuf,
+    id: String,
+    origin: Origin,
+    quick: bool,
+    /// The hidden folder; released when the place is dropped.
+    lock: Option<Lock>,
+}
+
+impl Place {
+    /// Reserves the place of an experiment and tries all that is needed to put results there, before
+    /// hours are spent on what could not be kept. `file` is what the results are made from.
+    pub fn reserve(
+        results: &Path,
+        id: &str,
+        (command, file): (&'static str, &Path),
+        quick: bool,
+    ) -> Result<Self> {
+        let failed = |error| unwritable(results, id, &error);
+        fs::create_dir_all(results).map_err(failed)?;
+        let origin = Origin::new(command, file, &results.join(id))?;
+        let mut place =
+            Self { results: results.to_owned(), id: id.to_owned(), origin, quick, lock: None };
+        place.target()?;
+        let hidden = name::hidden(results, id, quick);
+        let lock = Lock::take(&hidden, &place.origin).map_err(|error| match error {
+            lock::Refusal::Io(error) => failed(error),
+            lock::Refusal::Problem(problem) => problem,
+        })?;
+        place.lock = Some(lock);
+        exchange::try_out(&hidden).map_err(failed)?;
+        let in_place = place.settle()?;
+        leftovers::of_version_0_1_0(results, id, &in_place)?;
+        leftovers::of_dead_runs(results);
+        Ok(place)
+    }
+
+    /// The hidden folder, for what a later run of the same experiment goes on from.
+    #[allow(dead_code, reason = "the journal will be kept here")]
+    pub fn unfinished(&self) -> &Path {
+        self.lock.as_ref().map_or(&self.results, Lock::folder)
+    }
+
+    /// What the results will be said to be made from.
+    pub fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// An empty folder for the files of the results.
+    pub fn folder(&self) -> Result<Folder> {
+        let making = self.unfinished().join(FILES);
+        let failed = |error| unwritable(&self.results, &self.id, &error);
+        clear(&making).and_then(|()| fs::create_dir(&making)).map_err(failed)?;
+        Ok(Folder::new(making, self.results.join(&self.id)))
+    }
+
+    /// Puts the whole folder in its place, in exchange for older results, and gives that place.
+    pub fn finish(mut self, folder: Folder) -> Result<PathBuf> {
+        let hidden = self.unfinished().to_owned();
+        let making = folder.into_path();
+        let failed = |error: std::io::Error| {
+            Problem::from_error("the results cannot be put in place", error).in_file(&hidden)
+        };
+        manifest::seal(&making).map_err(failed)?;
+        fs::rename(&making, hidden.join(WHOLE)).map_err(failed)?;
+        exchange::flush(&hidden).map_err(failed)?;
+        let place = self.settle()?;
+        let whole = [WHOLE, REPLACED].iter().all(|name| !hidden.join(name).exists());
+        if let Some(lock) = self.lock.take().filter(|_| whole) {
+            lock.remove();
+        }
+        if !self.quick {
+            leftovers::remove_dead(&name::hidden(&self.results, &self.id, true));
+        }
+        Ok(place)
+    }
+
+    /// Where the results go, and what stands there. A quick run goes elsewhere if a full one is there.
+    fn target(&self) -> Result<(PathBuf, Option<Ours>)> {
+        let place = self.results.join(&self.id);
+        let there = self.mine(&place)?;
+        if !self.quick || there.as_ref().is_none_or(|ours| ours.head.is_quick()) {
+            return Ok((place, there));
+        }
+        let place = name::quick(&self.results, &self.id);
+        let there = self.mine(&place)?;
+        Ok((place, there))
+    }
+
+    /// What stands at a place, if it may be replaced by this run.
+    fn mine(&self, place: &Path) -> Result<Option<Ours>> {
+        let there = standing(place, &self.id)?;
+        if let Some(ours) = &there {
+            ours.check_origin(&self.origin, place)?;
+        }
+        Ok(there)
+    }
+
+    /// Puts what is whole in place and clears away what it replaced: the end of a run, and the first
+    /// thing that the next one does where it was killed in the middle of that.
+    fn settle(&self) -> Result<PathBuf> {
+        let [whole, replaced] = [WHOLE, REPLACED].map(|name| self.unfinished().join(name));
+        let (place, there) = self.target()?;
+        let failed = |error: std::io::Error| {
+            let hint = format!("the whole results are in {}", whole.display());
+            Problem::from_error("cannot be put in place", error).in_file(&place).hint(hint)
+        };
+        let is_newer = |ours: &Ours| manifest::is_newer(&whole, &ours.folder);
+        let placed = match &there {
+            None if whole.exists() => exchange::put(&whole, &place),
+            None if replaced.exists() => exchange::put(&replaced, &place),
+            Some(ours) if whole.exists() && is_newer(ours) => {
+                carry::link_along(&place, &whole);
+                exchange::swap(&whole, &place, &replaced, ours.identity)
+            }
+            _ => Ok(()),
+        };
+        match placed {
+            // A full run and a quick one of the same experiment have finished at the same time.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return self.settle(),
+            placed => placed.map_err(failed)?,
+        }
+        for older in [whole, replaced] {
+            if older.exists() {
+                self.retire(&older, &place);
+            }
+        }
+        clear(&self.unfinished().join(FILES))
+            .map_err(|e| unwritable(&self.results, &self.id, &e))?;
+        Ok(place)
+    }
+
+    /// Clears older results away when all that is a user's in them has come along. What cannot be
+    /// cleared away is no reason to call the new results failed.
+    fn retire(&self, older: &Path, place: &Path) {
+        if let Err(error) = carry::move_rest(older, place) {
+            tell!(
+                "warning: {}: older results in {} cannot be cleared away: {error}",
+                self.id,
+                older.display()
+            );
+        }
+    }
+}
+
+impl Drop for Place {
+    /// After an error nothing stays that is not worth going on from.
+    fn drop(&mut self) {
+        if let Some(lock) = self.lock.take() {
+            let _ = clear(&lock.folder().join(FILES));
+            if !leftovers::holds_work(lock.folder()) {
+                lock.remove();
+            }
+        }
+    }
+}
+
+/// Removes a folder that is ours alone, if it is there.
+fn clear(folder: &Path) -> std::io::Result<()> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+fn unwritable(results: &Path, id: &str, error: &std::io::Error) -> Problem {
+    if error.kind() == ErrorKind::InvalidFilename {
+        let message = format!(
+            "cannot hold a folder called after `{id}`: the name has {} bytes, and more are needed \
+             for the hidden folder in which it is put together",
+            id.len()
+        );
+        return Problem::new(message).in_file(results).hint("give the file a shorter name");
+    }
+    Problem::from_error("cannot be written to", error).in_file(results)
+}

@@ -1,0 +1,198 @@
+//! What a user put into a folder of results, or edited in it, comes along to the new one.
+//!
+//! Before the exchange it is linked into the new folder, so that it is in place at every moment;
+//! afterwards what could not be linked is moved. A name that is taken in the new folder gets `.kept`
+//! before its ending, which is said. The old folder is then emptied file by file and never removed
+//! with anything in it that has not come along.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::{Error, ErrorKind, Result};
+use std::path::Path;
+
+use super::exchange::flush;
+use super::manifest::{Manifest, Owner};
+use super::standing::{Identity, SUMMARY};
+use crate::output::tell;
+
+/// How an entry gets into the new folder.
+#[derive(Clone, Copy, PartialEq)]
+enum By {
+    Link,
+    Move,
+}
+
+/// Links what is a user's into the new folder. What cannot be linked is moved later.
+pub fn link_along(old: &Path, new: &Path) {
+    for (name, owner) in owned(old).unwrap_or_default() {
+        if owner != Owner::Ours {
+            // Whatever goes wrong here is tried again, and told, when the rest is moved.
+            let _ = lodge(&old.join(&name), new, &name, owner == Owner::Edited, By::Link);
+        }
+    }
+    let _ = flush(new);
+}
+
+/// Moves what has not come along yet and removes the old folder.
+pub fn move_rest(old: &Path, new: &Path) -> Result<()> {
+    let (ours, users): (Vec<_>, Vec<_>) =
+        owned(old)?.into_iter().partition(|(_, owner)| *owner == Owner::Ours);
+    for (name, owner) in &users {
+        lodge(&old.join(name), new, name, *owner == Owner::Edited, By::Move)?;
+    }
+    if !users.is_empty() {
+        flush(new)?;
+    }
+    // The summary goes last: without it, a later run could not tell the others from a user's.
+    let (summary, files): (Vec<_>, Vec<_>) =
+        ours.iter().map(|(name, _)| name).partition(|name| *name == SUMMARY);
+    files.iter().chain(&summary).try_for_each(|name| fs::remove_file(old.join(name)))?;
+    fs::remove_dir(old)
+}
+
+/// What is in a folder of results, and whose.
+fn owned(folder: &Path) -> Result<Vec<(OsString, Owner)>> {
+    let manifest = Manifest::of(folder);
+    let of = |name: OsString| {
+        let owner = manifest.owner(folder, &name);
+        (name, owner)
+    };
+    Ok(names(folder)?.into_iter().map(of).collect())
+}
+
+fn names(folder: &Path) -> Result<Vec<OsString>> {
+    fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name())).collect()
+}
+
+/// Brings one entry into a folder, under its own name or the next that is free.
+fn lodge(from: &Path, folder: &Path, name: &OsStr, was_edited: bool, by: By) -> Result<()> {
+    for number in usize::from(was_edited).. {
+        let to = folder.join(kept(name, number));
+        if to.symlink_metadata().is_err() {
+            bring(from, &to, by)?;
+        } else if is_same(from, &to)? {
+            if by == By::Move {
+                fs::remove_file(from)?;
+            }
+            return Ok(());
+        } else if number == 0 && is_folder(from) && is_folder(&to) {
+            for inner in names(from)? {
+                lodge(&from.join(&inner), &to, &inner, false, by)?;
+            }
+            return if by == By::Move { fs::remove_dir(from) } else { Ok(()) };
+        } else {
+            continue;
+        }
+        if number > 0 {
+            let why = if was_edited { "was edited since it was written" } else { "is in the way" };
+            tell!(
+                "{} {why}; it is kept as {}",
+                name.display(),
+                to.file_name().unwrap_or_default().display()
+            );
+        }
+        return Ok(());
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
+fn bring(from: &Path, to: &Path, by: By) -> Result<()> {
+    let kind = fs::symlink_metadata(from)?.file_type();
+    match by {
+        By::Move => fs::rename(from, to),
+        By::Link if kind.is_file() => fs::hard_link(from, to),
+        By::Link if kind.is_dir() => {
+            fs::create_dir(to)?;
+            for inner in names(from)? {
+                bring(&from.join(&inner), &to.join(&inner), by)?;
+            }
+            fs::set_permissions(to, fs::metadata(from)?.permissions())?;
+            flush(to)
+        }
+        By::Link if kind.is_symlink() => std::os::unix::fs::symlink(fs::read_link(from)?, to),
+        By::Link => Err(Error::from(ErrorKind::Unsupported)),
+    }
+}
+
+/// Whether an entry has come along already: the same file, or a link to the same.
+fn is_same(a: &Path, b: &Path) -> Result<bool> {
+    let is_link = |path: &Path| fs::symlink_metadata(path).map(|found| found.is_symlink());
+    if is_link(a)? && is_link(b)? {
+        return Ok(fs::read_link(a)? == fs::read_link(b)?);
+    }
+    Ok(Identity::at(a)? == Identity::at(b)?)
+}
+
+fn is_folder(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_dir())
+}
+
+/// The name itself, or with `.kept`, `.kept-2`, … before its ending.
+fn kept(name: &OsStr, number: usize) -> OsString {
+    let path = Path::new(name);
+    let (Some(stem), true) = (path.file_stem(), number > 0) else { return name.to_owned() };
+    let mut kept = stem.to_owned();
+    kept.push(".kept");
+    if number > 1 {
+        kept.push(format!("-{number}"));
+    }
+    if let Some(ending) = path.extension() {
+        kept.push(".");
+        kept.push(ending);
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SUMMARY_TEXT: &str = "{\n  \"a\": 0.1,\n  \"provenance\": {\n    \"seed\": 1\n  }\n}\n";
+
+    #[test]
+    fn a_taken_name_is_kept_beside() {
+        let of = |name: &str, number| kept(OsStr::new(name), number).into_string().unwrap();
+        assert_eq!(of("sweep.csv", 0), "sweep.csv");
+        assert_eq!(of("sweep.csv", 1), "sweep.kept.csv");
+        assert_eq!(of("sweep.csv", 2), "sweep.kept-2.csv");
+        assert_eq!(of(".notes", 1), ".notes.kept");
+    }
+
+    #[test]
+    fn what_is_a_users_is_in_the_new_folder_before_and_after_the_old_one_goes() {
+        let place = tempfile::tempdir().unwrap();
+        let [old, new] = ["old", "new"].map(|name| place.path().join(name));
+        for folder in [&old, &new] {
+            fs::create_dir(folder).unwrap();
+            fs::write(folder.join("msf.csv"), "ours").unwrap();
+            fs::write(folder.join("sweep.csv"), "ours").unwrap();
+            fs::write(folder.join("summary.json"), SUMMARY_TEXT).unwrap();
+            super::super::manifest::seal(folder).unwrap();
+        }
+        fs::write(old.join("sweep.csv"), "edited").unwrap();
+        let summary = fs::read_to_string(old.join("summary.json")).unwrap();
+        fs::write(old.join("summary.json"), summary.replace("0.1", "0.2")).unwrap();
+        fs::create_dir_all(old.join("drafts/deep")).unwrap();
+        fs::write(old.join("drafts/deep/one.tex"), "years of work").unwrap();
+        fs::write(old.join("notes.txt"), "mine").unwrap();
+        let check = || {
+            let read = |name: &str| fs::read_to_string(new.join(name)).unwrap();
+            assert_eq!(read("notes.txt"), "mine");
+            assert_eq!(read("drafts/deep/one.tex"), "years of work");
+            assert_eq!(read("sweep.kept.csv"), "edited");
+            assert_eq!(read("sweep.csv"), "ours");
+            assert!(read("summary.kept.json").contains("0.2"));
+            assert!(read("summary.json").contains("0.1"));
+        };
+        link_along(&old, &new);
+        check();
+        // Something that comes in between the two is not lost either.
+        fs::write(old.join("drafts/two.tex"), "a late thought").unwrap();
+        fs::write(old.join("msf.csv"), "a late edit").unwrap();
+        move_rest(&old, &new).unwrap();
+        check();
+        assert_eq!(fs::read_to_string(new.join("drafts/two.tex")).unwrap(), "a late thought");
+        assert_eq!(fs::read_to_string(new.join("msf.kept.csv")).unwrap(), "a late edit");
+        assert!(!old.exists());
+    }
+}

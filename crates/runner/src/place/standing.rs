@@ -1,0 +1,193 @@
+//! What stands where results are to go. Only results of the same experiment, in a folder of their
+//! own, are ever replaced; anything else is somebody's, and refused.
+
+use std::fs::{self, Metadata};
+use std::io::{BufReader, ErrorKind};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::name::relative;
+use crate::problem::{Problem, Result};
+
+/// The file that makes a folder one of results.
+pub const SUMMARY: &str = "summary.json";
+
+/// What a summary says of itself, without its numbers.
+#[derive(Deserialize)]
+pub struct Head {
+    pub id: String,
+    /// 1 for a full run.
+    pub shortened: f64,
+    /// The experiment as it was parsed.
+    pub experiment: Value,
+    pub provenance: Provenance,
+    /// When the summary was written, in seconds since 1970.
+    #[serde(skip)]
+    written: Option<i64>,
+}
+
+/// The part of a summary's provenance that is read again.
+#[derive(Deserialize)]
+pub struct Provenance {
+    pub plan_hash: String,
+    pub wall_time_s: f64,
+    /// What the results were made from; none in those of 0.1.0.
+    pub origin: Option<Origin>,
+}
+
+/// What results were made from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Origin {
+    /// `run` or `predict`.
+    pub command: String,
+    /// The experiment or the network, as seen from the results folder.
+    pub file: PathBuf,
+}
+
+/// A folder of results of the experiment that would replace it.
+pub struct Ours {
+    pub folder: PathBuf,
+    pub head: Head,
+    pub identity: Identity,
+}
+
+/// Which folder or file it is, whatever it is called.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Identity(u64, u64);
+
+impl Identity {
+    /// Of what is at a path, which is not followed if it is a link.
+    pub fn at(path: &Path) -> std::io::Result<Self> {
+        fs::symlink_metadata(path).map(|found| Self::of(&found))
+    }
+
+    /// Of what is described so.
+    pub fn of(found: &Metadata) -> Self {
+        Self(found.dev(), found.ino())
+    }
+}
+
+impl Head {
+    /// Reads the summary of a folder of results; the error says why it is none.
+    pub fn read(folder: &Path) -> std::result::Result<Self, String> {
+        let path = folder.join(SUMMARY);
+        let no_file = || format!("has no {SUMMARY} of eigensync in it");
+        // A pipe would be waited for, and a link may lead anywhere.
+        if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
+            return Err(no_file());
+        }
+        let file = fs::File::open(&path)
+            .map_err(|error| format!("has a {SUMMARY} that cannot be read: {error}"))?;
+        let written = file.metadata().map(|found| found.mtime()).ok();
+        let head = serde_json::from_reader(BufReader::with_capacity(1 << 16, file));
+        head.map(|head: Self| Self { written, ..head }).map_err(|_| no_file())
+    }
+
+    /// When the run began, in seconds since 1970, if that can be told.
+    pub fn began(&self) -> Option<i64> {
+        Some(self.written? - self.provenance.wall_time_s.ceil() as i64)
+    }
+
+    pub fn is_quick(&self) -> bool {
+        self.shortened > 1.0
+    }
+}
+
+impl Origin {
+    /// Of results at a place, whose parent is there, made by a command from a file.
+    pub fn new(command: &str, file: &Path, place: &Path) -> Result<Self> {
+        let whole = |path: &Path| {
+            let failed = |error| Problem::from_error("cannot be opened", error).in_file(path);
+            path.canonicalize().map_err(failed)
+        };
+        let parent = place.parent().filter(|path| !path.as_os_str().is_empty());
+        let folder = whole(parent.unwrap_or(Path::new(".")))?;
+        let file = relative(&whole(file)?, &folder.join(place.file_name().unwrap_or_default()));
+        Ok(Self { command: command.to_owned(), file })
+    }
+
+    /// Whether results beside a place that were made from this would be made again from the other: it
+    /// is the same file, or was moved.
+    pub fn is_same(&self, other: &Self, place: &Path) -> bool {
+        let was_moved =
+            || self.file.file_name() == other.file.file_name() && !self.path(place).exists();
+        self.command == other.command && (self.file == other.file || was_moved())
+    }
+
+    /// In words for the terminal.
+    pub fn shown(&self, place: &Path) -> String {
+        let path = self.path(place);
+        let path = path.canonicalize().unwrap_or(path);
+        format!("`eigensync {} {}`", self.command, path.display())
+    }
+
+    /// The file as seen from where we are; the place itself need not be there.
+    fn path(&self, place: &Path) -> PathBuf {
+        let results = place.parent().unwrap_or(Path::new(""));
+        results.join(self.file.strip_prefix("..").unwrap_or(&self.file))
+    }
+}
+
+impl Ours {
+    /// Refuses what was made from another file.
+    pub fn check_origin(&self, origin: &Origin, place: &Path) -> Result<()> {
+        let Some(earlier) = self.head.provenance.origin.clone().or_else(|| self.old_origin())
+        else {
+            return Ok(());
+        };
+        if earlier.is_same(origin, place) {
+            return Ok(());
+        }
+        let message =
+            format!("holds the results of {}, which this would replace", earlier.shown(place));
+        Err(refused(place, &message))
+    }
+
+    /// Version 0.1.0 left only the experiment file that a prediction was made into.
+    fn old_origin(&self) -> Option<Origin> {
+        self.folder.join("experiment.toml").exists().then(|| {
+            let network = self.head.experiment["network"]["file"]["path"].as_str();
+            let network = Path::new(network.unwrap_or_default());
+            let whole = self.folder.canonicalize().unwrap_or_default();
+            Origin { command: "predict".into(), file: relative(network, &whole) }
+        })
+    }
+}
+
+/// What stands at the place of an experiment's results: nothing, or results of the same experiment.
+pub fn standing(place: &Path, id: &str) -> Result<Option<Ours>> {
+    let found = match fs::symlink_metadata(place) {
+        Ok(found) => found,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(super::unwritable(place, id, &error)),
+    };
+    if found.is_symlink() {
+        let to = fs::read_link(place).unwrap_or_default();
+        return Err(refused(place, &format!("is a link to {}", to.display())));
+    }
+    if !found.is_dir() {
+        return Err(refused(place, "is a file"));
+    }
+    let head = Head::read(place).map_err(|why| refused(place, &why))?;
+    if head.id != id {
+        return Err(refused(place, &format!("holds results of another experiment, `{}`", head.id)));
+    }
+    if let Err(error) = rustix::fs::access(place, ALL_ACCESS) {
+        return Err(Problem::from_error("cannot be replaced", error).in_file(place));
+    }
+    Ok(Some(Ours { folder: place.to_owned(), head, identity: Identity::of(&found) }))
+}
+
+/// What is needed to take files out of a folder.
+const ALL_ACCESS: rustix::fs::Access = rustix::fs::Access::READ_OK
+    .union(rustix::fs::Access::WRITE_OK)
+    .union(rustix::fs::Access::EXEC_OK);
+
+fn refused(place: &Path, why: &str) -> Problem {
+    Problem::new(format!("{why}; expected nothing, or older results of the same experiment"))
+        .in_file(place)
+        .hint("results go here: move it away, or write elsewhere: `--results FOLDER`")
+}

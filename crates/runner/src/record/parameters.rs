@@ -1,0 +1,34 @@
+//! Every parameter that a run used, in the words of experiment files: what the file says, the defaults
+//! for what it leaves out, and what `--quick` made of the times.
+
+use serde_json::{Value, json};
+
+use crate::plan::Plan;
+
+/// The resolved experiment; keys that have no effect in it are null.
+pub fn of(plan: &Plan) -> Value {
+    let mut parameters = serde_json::to_value(&plan.experiment).unwrap_or_default();
+    let mut set = |pointer: &str, value: Value| {
+        if let Some((table, key)) = pointer.rsplit_once('/')
+            && let Some(table) = parameters.pointer_mut(table)
+        {
+            table[key] = value;
+        }
+    };
+    set("/spectrum/modes", json!(plan.spectrum.wanted()));
+    set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
+    set("/msf/transient", json!(plan.msf.times.transient));
+    set("/msf/average", json!(plan.msf.times.average));
+    set("/msf/relative_error", json!(plan.msf.refinement.relative_error));
+    set("/msf/refinement_rounds", json!(plan.msf.refinement.max_rounds));
+    if let Some(sweep) = &plan.sweep {
+        set("/sweep/transient", json!(sweep.schedule.transient));
+        set("/sweep/average", json!(sweep.schedule.average));
+        set("/sweep/component", json!(plan.node.model.components()[sweep.observables.component]));
+        set("/sweep/pairs", json!(sweep.observables.pairs));
+        if sweep.method == dynamics::Method::Rk4 {
+            set("/sweep/tolerance", Value::Null);
+        }
+    }
+    parameters
+}

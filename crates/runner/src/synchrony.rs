@@ -1,0 +1,235 @@
+//! Whether all nodes can synchronise, and at which ε, in the sentence that a paper prints.
+//!
+//! A window (σ₁, σ₂) of the stable set holds all transverse modes at σ₁ / |λ_2| < ε < σ₂ / |λ_N|, which
+//! exists when the eigenratio λ_N / λ_2 is below the window's ratio σ₂ / σ₁ (M. Barahona & L. M. Pecora,
+//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0.
+
+use clustering::State;
+use msf::{CriticalCoupling, End, Interval, StableRegion};
+use serde::Serialize;
+
+use crate::prediction::Known;
+use crate::table::{four_digits, three_digits, two_digits};
+
+/// The verdict with its numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct Synchrony {
+    /// The sentence.
+    pub verdict: String,
+    /// λ_N / λ_2, of the transverse modes that are not zero; none without links or without λ_N.
+    pub eigenratio: Option<f64>,
+    /// σ₂ / σ₁ of each window; none where it is infinite.
+    pub window_ratios: Vec<Option<f64>>,
+    /// The ranges of ε at which all nodes synchronise.
+    pub epsilon: Vec<EpsilonRange>,
+}
+
+/// A range of ε with the standard errors of its ends.
+#[derive(Clone, Debug, Serialize)]
+pub struct EpsilonRange {
+    pub from: f64,
+    pub from_standard_error: Option<f64>,
+    /// None where it has no end.
+    pub to: Option<f64>,
+    pub to_standard_error: Option<f64>,
+}
+
+/// What a verdict is made from.
+pub struct Evidence<'a> {
+    pub known: Known<'a>,
+    pub stable: &'a StableRegion,
+    pub critical: &'a [CriticalCoupling],
+    /// Predicted states, neighbours of equal clusters not yet merged.
+    pub states: &'a [State],
+    pub n_components: usize,
+    /// σ up to which was looked.
+    pub looked_to: f64,
+}
+
+impl Synchrony {
+    pub fn of(evidence: &Evidence<'_>) -> Self {
+        let stable = evidence.stable;
+        let epsilon = evidence.ranges();
+        Self {
+            eigenratio: evidence.eigenratio(),
+            window_ratios: stable.intervals.iter().map(ratio).collect(),
+            verdict: evidence.verdict(&epsilon),
+            epsilon,
+        }
+    }
+}
+
+impl Evidence<'_> {
+    /// Where no mode is unstable, and the range begins and ends by a mode that becomes so.
+    fn ranges(&self) -> Vec<EpsilonRange> {
+        let synchronous = self.states.iter().filter(|state| state.unstable_modes.is_empty());
+        let mut ranges: Vec<EpsilonRange> = synchronous
+            .map(|state| {
+                let (from, to) = state.epsilon;
+                EpsilonRange {
+                    from,
+                    from_standard_error: self.error_at(from),
+                    to,
+                    to_standard_error: to.and_then(|to| self.error_at(to)),
+                }
+            })
+            .collect();
+        if let (Some(top), Some(highest)) = (self.known.top(self.stable), ranges.first_mut())
+            && highest.to == Some(top)
+        {
+            // λ_N is of no mode that was computed.
+            let zero = self.stable.intervals.first().and_then(|first| first.to.zero());
+            highest.to_standard_error = zero.map(|zero| zero.standard_error / zero.sigma * top);
+        }
+        ranges.reverse();
+        ranges
+    }
+
+    fn error_at(&self, epsilon: f64) -> Option<f64> {
+        let here = |c: &&CriticalCoupling| (c.epsilon - epsilon).abs() <= 1e-9 * epsilon;
+        self.critical.iter().find(here).map(|critical| critical.standard_error)
+    }
+
+    fn slowest(&self) -> Option<f64> {
+        let spectrum = self.known.spectrum;
+        spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < -spectrum.tolerance)
+    }
+
+    fn eigenratio(&self) -> Option<f64> {
+        Some(self.known.fastest? / self.slowest()?)
+    }
+
+    fn verdict(&self, ranges: &[EpsilonRange]) -> String {
+        let at_rest = self.stable.contains(0.0);
+        let never = |why: String| format!("no ε synchronises all nodes: {why}");
+        if self.stable.intervals.is_empty() {
+            let looked = four_digits(self.looked_to);
+            return never(format!("no σ up to {looked} was found stable"));
+        }
+        if self.n_components > 1 && !at_rest {
+            return never(format!("the network has {} components", self.n_components));
+        }
+        if !ranges.is_empty() {
+            let ranges: Vec<String> = ranges.iter().map(EpsilonRange::in_words).collect();
+            let rest = if at_rest { ", since each comes to rest by itself" } else { "" };
+            return format!("all nodes synchronise for {}{rest}", ranges.join(" and for "));
+        }
+        let ratios: Vec<String> =
+            self.stable.intervals.iter().filter_map(ratio).map(three_digits).collect();
+        match self.eigenratio().map(three_digits) {
+            Some(own) if ratios.len() == self.stable.intervals.len() => {
+                let windows = match &ratios[..] {
+                    [one] => format!("the window's {one}"),
+                    several => format!("that of each window ({})", several.join(", ")),
+                };
+                format!("λ_N/λ_2 = {own} exceeds {windows}: no ε synchronises all nodes")
+            }
+            _ => "whether an ε synchronises all nodes was not found out".into(),
+        }
+    }
+}
+
+impl EpsilonRange {
+    fn in_words(&self) -> String {
+        let end = |value: f64, error: Option<f64>| match error {
+            Some(error) if error > 0.0 => {
+                format!("{} (± {})", four_digits(value), two_digits(error))
+            }
+            _ => four_digits(value),
+        };
+        let from = end(self.from, self.from_standard_error);
+        match (self.from > 0.0, self.to) {
+            (false, None) => "every ε".into(),
+            (true, None) => format!("ε > {from}"),
+            (false, Some(to)) => format!("ε < {}", end(to, self.to_standard_error)),
+            (true, Some(to)) => format!("{from} < ε < {}", end(to, self.to_standard_error)),
+        }
+    }
+}
+
+/// σ₂ / σ₁ of an interval; none where it is infinite or not known.
+fn ratio(interval: &Interval) -> Option<f64> {
+    match (interval.from, interval.upper()) {
+        (End::Zero(_) | End::Looked { .. }, Some(to)) => Some(to / interval.lower()),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clustering::{ClusterRule, cascade};
+    use graph::{CouplingMatrix, Network, Normalization};
+    use spectra::{Request, leading_modes};
+
+    use super::*;
+
+    /// The verdict on a network of links of weight 1, with all of its modes.
+    fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
+        let links: Vec<_> = links.iter().map(|&(i, j)| (i, j, 1.0)).collect();
+        let labels = (0..n_nodes).map(|node| node.to_string()).collect();
+        let network = Network::undirected(labels, &links).unwrap();
+        let n_components = network.components().len();
+        let w = CouplingMatrix::new(&network, Normalization::Laplacian);
+        let spectrum = leading_modes(&w, &Request::default()).unwrap();
+        let stable = StableRegion { intervals };
+        let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
+        let fastest = spectrum.eigenvalues.last().copied();
+        let evidence = Evidence {
+            known: Known { spectrum: &spectrum, fastest },
+            critical: &[],
+            states: &states,
+            stable: &stable,
+            n_components,
+            looked_to: 50.0,
+        };
+        Synchrony::of(&evidence).verdict
+    }
+
+    // A path of three: λ = 0, −1, −3.
+    const PATH: [(usize, usize); 2] = [(0, 1), (1, 2)];
+
+    #[test]
+    fn a_window_wider_than_the_eigenratio_is_where_all_nodes_synchronise() {
+        let window = vec![Interval::known(1.0, Some(4.5))];
+        assert_eq!(verdict(3, &PATH, window), "all nodes synchronise for 1 < ε < 1.5");
+        let unbounded = vec![Interval::known(8.0, None)];
+        assert_eq!(verdict(3, &PATH, unbounded), "all nodes synchronise for ε > 8");
+    }
+
+    #[test]
+    fn a_window_that_is_too_narrow_is_told_with_both_ratios() {
+        let window = vec![Interval::known(1.0, Some(2.0))];
+        let expected = "λ_N/λ_2 = 3 exceeds the window's 2: no ε synchronises all nodes";
+        assert_eq!(verdict(3, &PATH, window), expected);
+        let two = vec![Interval::known(1.0, Some(2.0)), Interval::known(8.0, Some(10.0))];
+        let expected =
+            "λ_N/λ_2 = 3 exceeds that of each window (2, 1.25): no ε synchronises all nodes";
+        assert_eq!(verdict(3, &PATH, two), expected);
+    }
+
+    #[test]
+    fn modes_in_different_windows_synchronise_too() {
+        // At ε = 1.5 the modes have σ = 1.5 and 4.5.
+        let two = vec![Interval::known(1.0, Some(2.0)), Interval::known(4.0, Some(5.0))];
+        assert_eq!(verdict(3, &PATH, two), "all nodes synchronise for 1.333 < ε < 1.667");
+    }
+
+    #[test]
+    fn components_synchronise_only_where_each_node_comes_to_rest() {
+        let pairs = [(0, 1), (2, 3)];
+        let above = Interval::known(1.0, None);
+        assert_eq!(
+            verdict(4, &pairs, vec![above]),
+            "no ε synchronises all nodes: the network has 2 components"
+        );
+        let at_rest = Interval { from: End::Origin { included: true }, ..above };
+        assert_eq!(
+            verdict(4, &pairs, vec![at_rest]),
+            "all nodes synchronise for every ε, since each comes to rest by itself"
+        );
+        assert_eq!(
+            verdict(4, &pairs, vec![]),
+            "no ε synchronises all nodes: no σ up to 50 was found stable"
+        );
+    }
+}

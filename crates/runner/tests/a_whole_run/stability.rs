@@ -1,0 +1,152 @@
+//! What is said beside the stable set: its ends, zeros that could not be refined, oscillators at rest,
+//! attractors of several kinds, bounded windows and what leading modes tell of them.
+
+use serde_json::{Value, json};
+
+use crate::run;
+use crate::support::{Answer, SIX_NODES, Toml, Workplace, tiny};
+
+/// The tiny experiment without a sweep and its claims.
+fn prediction() -> Toml {
+    tiny().without_table("sweep").without_table("claims.integers")
+}
+
+fn summary(experiment: &Toml, network: &str) -> (Value, Answer) {
+    let (place, answer) = run(experiment, network, 0);
+    (place.json("results/tiny/summary.json"), answer)
+}
+
+fn predict(network: &str, options: &[&str]) -> (Value, Answer) {
+    let place = Workplace::new();
+    place.write("net.edges", network);
+    let predict = ["predict", "net.edges", "--matrix", "laplacian", "--quick"];
+    let answer = place.answer(&[&predict[..], options].concat()).with_status(0);
+    (place.json("results/net/summary.json"), answer)
+}
+
+#[track_caller]
+fn warned(summary: &Value, about: &str) -> String {
+    let warnings = summary["warnings"].as_array().unwrap();
+    let found = warnings.iter().find(|warning| warning["about"] == about);
+    found.unwrap_or_else(|| panic!("{about} in {warnings:?}"))["message"].as_str().unwrap().into()
+}
+
+#[test]
+fn a_grid_that_starts_inside_the_stable_range_has_the_zero_below_it() {
+    let experiment = prediction().set("msf.sigma", "{ from = 20.0, to = 40.0, points = 5 }");
+    let (summary, _) = summary(&experiment, "1 2\n");
+    let sigma_c = summary["msf"]["sigma_c"].as_f64().unwrap();
+    let error = summary["msf"]["standard_error"].as_f64().unwrap();
+    assert!((sigma_c - 8.17).abs() < 0.05 + 4.0 * error, "{sigma_c} ± {error}");
+    let ends = &summary["msf"]["stable_ends"][0];
+    assert_eq!([&ends[0]["kind"], &ends[1]["kind"]], ["zero", "looked"]);
+    assert_eq!(ends[1]["sigma"], 40.0);
+}
+
+#[test]
+fn a_zero_that_is_not_as_good_as_asked_is_said_beside_every_number_that_follows() {
+    let claim = "[claims.edge]\nof = \"msf.sigma_c\"\nequals = 8.17\nabs_tol = 5";
+    let experiment = prediction()
+        .set("msf.relative_error", "1e-6")
+        .set("msf.transient", "5")
+        .set("msf.average", "20")
+        .and(claim);
+    let (summary, answer) = summary(&experiment, "1 2\n");
+    assert!(warned(&summary, "msf.zeros").contains("not as good as"), "{}", answer.stderr);
+    assert!(answer.stderr.contains("not as good as `msf.relative_error`"), "{}", answer.stderr);
+    assert!(answer.stdout.contains("not as good as"), "{}", answer.stdout);
+    for number in ["/msf/zeros/0", "/msf/stable_ends/0/0", "/critical_couplings/0", "/claims/0"] {
+        assert_eq!(summary.pointer(number).unwrap()["refined"], false, "{number}");
+    }
+}
+
+#[test]
+fn oscillators_at_rest_synchronise_in_pieces_and_without_coupling() {
+    let experiment = prediction()
+        .without_table("oscillator.lorenz")
+        .and("[oscillator.rossler]\na = -0.1\nb = 0.2\nc = 5.0")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 2.0, points = 5 }")
+        .set("msf.transient", "100")
+        .set("msf.average", "400");
+    let (summary, answer) = summary(&experiment, "1 2\n3 4\n");
+    assert!(!answer.stderr.contains("no coupling synchronises"), "{}", answer.stderr);
+    assert_eq!(summary["msf"]["isolated_state"], "at rest");
+    assert!(warned(&summary, "msf.isolated_state").contains("even without coupling"));
+    assert_eq!(summary["cascade"][0]["clusters"], json!([["1", "2", "3", "4"]]));
+    let verdict = summary["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.starts_with("all nodes synchronise for every ε"), "{verdict}");
+}
+
+#[test]
+fn orbits_on_two_fixed_points_are_told_with_a_zero_for_each() {
+    let experiment = prediction()
+        .set("oscillator.lorenz.r", "10.0")
+        .set("coupling.from", "\"z\"")
+        .set("msf.sigma", "{ from = 0.0, to = 15.0, points = 4 }")
+        .set("msf.transient", "100")
+        .set("msf.average", "500");
+    let (summary, _) = summary(&experiment, "1 2\n");
+    let message = warned(&summary, "msf.attractors");
+    assert!(message.contains("2 different attractors"), "{message}");
+    let mut ends: Vec<f64> = summary["msf"]["attractors"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|attractor| attractor["stable_ends"][0][1]["sigma"].as_f64().unwrap())
+        .collect();
+    ends.sort_by(f64::total_cmp);
+    assert!((ends[0] - 4.899).abs() < 0.2 && (ends[1] - 8.022).abs() < 0.4, "{ends:?}");
+}
+
+const X_INTO_X: [&str; 4] = ["--oscillator", "rossler", "--coupling", "x:x"];
+
+#[test]
+fn a_bounded_window_takes_all_modes_and_has_a_verdict() {
+    // A star of 40: λ_N / λ_2 = 40, and the window of Rössler, x into x, has 24.7.
+    let star: String = (1..40).map(|leaf| format!("0 {leaf}\n")).collect();
+    let (summary, answer) = predict(&star, &X_INTO_X);
+    assert_eq!(summary["eigenvalues"].as_array().unwrap().len(), 40);
+    let verdict = "λ_N/λ_2 = 40 exceeds the window's 24";
+    assert!(answer.stdout.contains(verdict), "{}", answer.stdout);
+    assert!(answer.stdout.contains("no ε synchronises all nodes"), "{}", answer.stdout);
+    // A ring of 20 has 4 / (2 − 2 cos 18°) = 40.9, one of ten 10.5.
+    let ring: String = (0..10).map(|node| format!("{node} {}\n", (node + 1) % 10)).collect();
+    let (summary, _) = predict(&ring, &X_INTO_X);
+    let range = &summary["global_synchrony"]["epsilon"][0];
+    let [from, to] = ["from", "to"].map(|end| range[end].as_f64().unwrap());
+    // 0.187 / 0.382 and 4.61 / 4.
+    assert!((from - 0.489).abs() < 0.02 && (to - 1.153).abs() < 0.02, "{range}");
+    assert!(range["from_standard_error"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn leading_modes_and_the_fastest_tell_what_they_can_of_a_bounded_window() {
+    let ring: String = (0..12).map(|node| format!("{node} {}\n", (node + 1) % 12)).collect();
+    let (summary, _) = predict(&ring, &[&X_INTO_X[..], &["--modes", "3"]].concat());
+    // 4.61 / |λ_N| = 4.61 / 4: above that the fastest mode is unstable, and its cluster not known.
+    let top = summary["cascade"][0]["epsilon"][1].as_f64().unwrap();
+    assert!((top - 1.153).abs() < 0.02, "{top}");
+    assert!(warned(&summary, "cascade").contains("nothing is predicted there"));
+    let verdict = summary["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.starts_with("all nodes synchronise for 0.6"), "{verdict}");
+    let (all, _) = predict(&ring, &[&X_INTO_X[..], &["--modes", "all"]].concat());
+    assert_eq!(all["eigenvalues"].as_array().unwrap().len(), 12);
+}
+
+#[test]
+fn an_unbounded_set_says_how_far_was_looked() {
+    let (place, answer) = {
+        let place = Workplace::new();
+        place.write("net.edges", SIX_NODES);
+        let options = ["--oscillator", "lorenz", "--coupling", "x:y", "--matrix", "laplacian"];
+        let answer = place.answer(&[&["predict", "net.edges", "--quick"][..], &options].concat());
+        (place, answer.with_status(0))
+    };
+    for expected in ["looked at from 0 to", "taken to be stable beyond", "chaotic", "for ε > 4."] {
+        assert!(answer.stdout.contains(expected), "{expected} in {}", answer.stdout);
+    }
+    let summary = place.json("results/net/summary.json");
+    assert_eq!(summary["msf"]["looked"][0], 0.0);
+    assert_eq!(summary["msf"]["isolated_state"], "chaotic");
+}
