@@ -29,6 +29,7 @@ mod row_sums;
 mod scalar;
 mod shared_sums;
 mod simulation;
+mod slow_time;
 mod statistics;
 
 pub use coupling::Coupling;
@@ -41,6 +42,7 @@ pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
 pub use scalar::{Dual, Lanes, Scalar};
 pub use simulation::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
+pub use slow_time::slow_time;
 pub use statistics::{BLOCKS, Estimate};
 
 /// Sparse matrix in compressed-row form with 32-bit column indices.

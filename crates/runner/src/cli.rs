@@ -13,7 +13,10 @@ use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, list, predict, results, table};
+use crate::{check, claims, compare, findings, list, predict, results, simulated, table};
+
+/// Predicted states of an experiment beside simulation that are shown; its summary has them all.
+const STATES_SHOWN: usize = 12;
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -171,6 +174,7 @@ fn run_files(
     let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
     let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
+    let mut states: Vec<table::StateRow> = Vec::new();
     let mut written = Vec::new();
     for (plan, place) in plans.iter().zip(places) {
         let started = Instant::now();
@@ -182,6 +186,7 @@ fn run_files(
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
+        states.extend(state_rows(plan, &found));
         written.push((plan.id.clone(), place));
         if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
@@ -191,6 +196,9 @@ fn run_files(
     }
     let with_claims = judged.iter().filter(|(_, claims)| !claims.is_empty());
     say!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
+    if let Some(table) = table::states(&states) {
+        say!("{table}\n");
+    }
     let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
     if let Some(table) = table::agreement(rows) {
         say!("{table}\n");
@@ -203,8 +211,12 @@ fn run_files(
         say!("{}: {}", claim.name.replace('_', " "), claim.reason);
     }
     let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
+    let undecided = match count(Verdict::CannotBeJudged) {
+        0 => String::new(),
+        undecided => format!(", {undecided} cannot be judged"),
+    };
     say!(
-        "{} claims hold, {} differ as known, {} differ; {}",
+        "{} claims hold, {} differ as known, {} differ{undecided}; {}",
         count(Verdict::Holds),
         count(Verdict::DiffersAsKnown),
         count(Verdict::Differs),
@@ -219,7 +231,23 @@ fn run_files(
         say!("left out: {problem}");
     }
     let golden = compare_all(&written, &folders.golden)?;
-    Ok(golden && count(Verdict::Differs) == 0)
+    Ok(golden && count(Verdict::Differs) + count(Verdict::CannotBeJudged) == 0)
+}
+
+/// The first predicted states with clusters, and what the sweep shows of them.
+fn state_rows(plan: &Plan, found: &findings::Findings) -> Vec<table::StateRow> {
+    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+    let states = found.cascade.iter().enumerate().filter(|_| has_pairs);
+    let row = |(at, state): (usize, &clustering::State)| {
+        let clusters = state.clusters.nontrivial();
+        if clusters.is_empty() {
+            return None;
+        }
+        let simulated::Seen { onset, end } = found.state_seen(at, &clusters)?;
+        let (id, predicted) = (plan.id.clone(), state.epsilon);
+        Some(table::StateRow { id, predicted, seen: [onset, end], runs: found.runs_in(state)? })
+    };
+    states.filter_map(row).take(STATES_SHOWN).collect()
 }
 
 /// Compares results, given by name and place, with the golden ones of the same name.

@@ -4,19 +4,21 @@ use clustering::{
     CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
     merge_equal_clusters,
 };
-use dynamics::DynamicsError;
+use dynamics::{DynamicsError, Replica, Run, Schedule};
 use msf::{CriticalCoupling, MasterStability};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
 use crate::agreement::{self, Agreement};
 use crate::check;
+use crate::doubts;
 use crate::plan::{Plan, Sweep};
 use crate::prediction::Known;
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
-use crate::simulated::Simulated;
+use crate::simulated::{Seen, Simulated};
 use crate::stability;
+use crate::step_effect::{Probe, StepEffect};
 use crate::synchrony::{Evidence, Synchrony};
 use crate::warning::{Warning, Warnings};
 
@@ -41,6 +43,8 @@ pub struct Findings {
     /// The same states as trees, labelled: one for each run of states in which clusters only split.
     pub trees: Vec<CascadeTree>,
     pub simulated: Option<Simulated>,
+    /// What the step of the integrator does to the errors of the sweep, at some of its couplings.
+    pub step_effects: Vec<StepEffect>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
     /// What must be known beside these numbers, in the order in which it came up.
@@ -81,6 +85,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
     check::warn(plan, &mut warnings);
     plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
     let msf = curves.of(plan, stages)?;
+    doubts::warn_of_short_times(plan, &mut warnings);
     stability::warn(plan, &msf, &mut warnings);
     let stable = &msf.stable;
     let n_nodes = plan.network.n_nodes();
@@ -110,6 +115,12 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         Some(sweep) => Some(simulate(plan, sweep, stages)?),
         None => None,
     };
+    let mut step_effects = Vec::new();
+    if let (Some(sweep), Some(simulated)) = (&plan.sweep, &simulated) {
+        doubts::warn_of_runs(&msf, simulated, &mut warnings);
+        step_effects = effects_of_step(plan, sweep, simulated, stages)?;
+        step_effects.iter().for_each(|effect| effect.warn(&mut warnings));
+    }
     let agreement = match &simulated {
         Some(simulated) => stages
             .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
@@ -139,6 +150,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         critical,
         synchrony,
         simulated,
+        step_effects,
         agreement,
         warnings,
     })
@@ -234,22 +246,45 @@ fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
 }
 
 fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
+    let runs = runs(plan, sweep, sweep.schedule, &sweep.replicas(), ("sweep", stages))?;
+    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+}
+
+/// Some replicas at the step of the sweep and at half of it.
+fn effects_of_step(
+    plan: &Plan,
+    sweep: &Sweep,
+    simulated: &Simulated,
+    stages: &Stages,
+) -> Result<Vec<StepEffect>> {
+    let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
+    let at = |schedule| runs(plan, sweep, schedule, &probe.replicas, ("half step", stages));
+    let [at_step, at_half] = probe.schedules.map(at);
+    Ok(probe.effects(simulated, [&at_step?, &at_half?]))
+}
+
+/// Runs replicas of a sweep over times of its own or others, as one stage.
+fn runs(
+    plan: &Plan,
+    sweep: &Sweep,
+    schedule: Schedule,
+    replicas: &[Replica],
+    (stage, stages): (&str, &Stages),
+) -> Result<Vec<Run>> {
     let simulation = dynamics::Simulation {
         model: plan.node.model,
         coupling: plan.node.coupling,
         matrix: plan.matrix.matrix(),
         method: sweep.method,
-        schedule: sweep.schedule,
+        schedule,
         observables: sweep.observables.clone(),
         kick: sweep.kick,
         instruction_set: plan.msf.instruction_set,
     };
-    let runs = stages
-        .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))
-        .map_err(|error| {
-            Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
-        })?;
-    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+    let steps = replicas.len() as u64 * schedule.steps();
+    stages.measured(stage, steps, |progress| simulation.run(replicas, progress)).map_err(|error| {
+        Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
+    })
 }
 
 impl Findings {
@@ -258,13 +293,62 @@ impl Findings {
         self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
     }
 
-    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.
+    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never are
+    /// or never cease to be.
     pub fn predicted_loss(&self, cluster: &[usize]) -> Option<f64> {
-        let together = |state: &State| {
-            let of = state.clusters.cluster_of();
-            cluster.iter().all(|&node| of[node] == of[cluster[0]])
-        };
-        let lost = self.cascade.iter().find(|state| !together(state))?;
-        Some(lost.epsilon.1.unwrap_or(f64::INFINITY))
+        let is_together = |state: &&State| together(state, cluster);
+        let lost = self
+            .cascade
+            .iter()
+            .skip_while(|state| !is_together(state))
+            .find(|s| !is_together(s))?;
+        lost.epsilon.1
     }
+
+    /// Where these clusters were seen in the sweep: looked for at the strongest couplings at which
+    /// they are predicted and of which the sweep has a point, or anywhere if there are none. None
+    /// without a sweep.
+    pub fn seen(&self, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let simulated = self.simulated.as_ref()?;
+        let holds = |state: &State| clusters.iter().all(|cluster| together(state, cluster));
+        let runs = self.cascade.chunk_by(|a, b| holds(a) == holds(b));
+        let ranges = runs.filter(|run| holds(&run[0])).map(range_of);
+        let has_point = |range: &(f64, Option<f64>)| {
+            simulated
+                .epsilon
+                .iter()
+                .any(|&epsilon| epsilon > range.0 && range.1.is_none_or(|to| epsilon <= to))
+        };
+        Some(simulated.seen(clusters, ranges.into_iter().find(has_point)))
+    }
+
+    /// How many runs of the sweep lie in the range of a state, and how many of these escaped; none
+    /// without a sweep.
+    pub fn runs_in(&self, state: &State) -> Option<[usize; 2]> {
+        let simulated = self.simulated.as_ref()?;
+        let inside = |at: &usize| state.holds_at(simulated.epsilon[*at]);
+        let positions: Vec<usize> = (0..simulated.epsilon.len()).filter(inside).collect();
+        let escaped = positions.iter().map(|&at| simulated.escaped(at)).sum();
+        Some([positions.len() * simulated.seeds.len(), escaped])
+    }
+
+    /// Where the clusters of one predicted state were seen in the sweep: looked for in its range and
+    /// above, as far as the states there hold them too.
+    pub fn state_seen(&self, state: usize, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let holds = |state: &&State| clusters.iter().all(|cluster| together(state, cluster));
+        let above = self.cascade[..state].iter().rev().take_while(holds).count();
+        let range = range_of(&self.cascade[state - above..=state]);
+        Some(self.simulated.as_ref()?.seen(clusters, Some(range)))
+    }
+}
+
+/// Whether a state has these nodes in one cluster.
+fn together(state: &State, cluster: &[usize]) -> bool {
+    let of = state.clusters.cluster_of();
+    cluster.iter().all(|&node| of[node] == of[cluster[0]])
+}
+
+/// The range of ε of neighbouring states, from strong coupling down.
+fn range_of(states: &[State]) -> (f64, Option<f64>) {
+    (states[states.len() - 1].epsilon.0, states[0].epsilon.1)
 }

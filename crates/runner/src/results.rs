@@ -138,8 +138,7 @@ fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<(
     let n_nodes = plan.network.n_nodes();
     for (position, &epsilon) in simulated.epsilon.iter().enumerate() {
         let epsilon = plain(epsilon);
-        let distance = findings.agreement.get(position).and_then(|a| a.distance.as_ref());
-        if let Some(distance) = distance {
+        if let Some(distance) = drawing::distance(findings, position) {
             let name = format!("distance_epsilon_{epsilon}.npy");
             folder.write(&name, npy(n_nodes, &distance.matrix()))?;
         }
