@@ -82,7 +82,6 @@ impl Place {
     }
 
     /// The hidden folder, for what a later run of the same experiment goes on from.
-    #[allow(dead_code, reason = "the journal will be kept here")]
     pub fn unfinished(&self) -> &Path {
         self.lock.as_ref().map_or(&self.results, Lock::folder)
     }
