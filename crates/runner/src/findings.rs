@@ -68,7 +68,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let request = plan.spectrum.request(stable, n_nodes);
     let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
-    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
+    // Zero modes are zero exactly, and no others are.
+    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
     let fastest = fastest(plan, &spectrum, &mut warnings);
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
