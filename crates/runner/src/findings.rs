@@ -5,7 +5,7 @@ use clustering::{
     merge_equal_clusters,
 };
 use dynamics::DynamicsError;
-use msf::{CriticalCoupling, MasterStability};
+use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
@@ -92,7 +92,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         .map_err(|error| failed("the spectrum could not be computed", &error))?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
     let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
-    let fastest = fastest(plan, &spectrum, &mut warnings);
+    let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
         warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
@@ -145,9 +145,17 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
 }
 
 /// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
-fn fastest(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) -> Option<f64> {
+fn fastest(
+    plan: &Plan,
+    spectrum: &Spectrum,
+    stable: &StableRegion,
+    warnings: &mut Warnings,
+) -> Option<f64> {
     if spectrum.eigenvalues.len() == plan.network.n_nodes() {
         return spectrum.eigenvalues.last().copied();
+    }
+    if stable.is_unbounded() {
+        return None;
     }
     match spectra::smallest_eigenvalue(&plan.matrix) {
         Ok(lambda) => Some(lambda),
