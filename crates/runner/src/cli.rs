@@ -8,6 +8,8 @@ use dynamics::InstructionSet;
 
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
+use crate::computed::Curves;
+use crate::journal::Journal;
 use crate::output::{say, tell};
 use crate::place::Place;
 use crate::plan::{self, Plan};
@@ -43,6 +45,9 @@ enum Command {
         /// Ten times shorter averages and transients: a first look, with larger errors
         #[arg(long)]
         quick: bool,
+        /// Compute all anew: take over nothing of an earlier run that was stopped before its end
+        #[arg(long)]
+        fresh: bool,
         /// Threads to use; all processors by default. Results do not depend on it
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
@@ -95,9 +100,9 @@ struct Folders {
 /// Runs a command; the result says whether everything held.
 pub fn run(cli: Cli) -> Result<bool> {
     match cli.command {
-        Command::Run { files, quick, threads, instruction_set, folders } => {
+        Command::Run { files, quick, fresh, threads, instruction_set, folders } => {
             use_threads(threads)?;
-            run_files(&files, quick, instruction_set, &folders)
+            run_files(&files, (quick, fresh), instruction_set, &folders)
         }
         Command::Predict(args) => {
             use_threads(args.threads)?;
@@ -158,7 +163,7 @@ fn instruction_set(name: &str) -> std::result::Result<InstructionSet, String> {
 /// Plans all files before running any, so that a slip in the last one shows at once.
 fn run_files(
     files: &[PathBuf],
-    quick: bool,
+    (quick, fresh): (bool, bool),
     instruction_set: Option<InstructionSet>,
     folders: &Folders,
 ) -> Result<bool> {
@@ -170,7 +175,7 @@ fn run_files(
     let reserve =
         |plan: &Plan| Place::reserve(&folders.results, &plan.id, ("run", &plan.file), quick);
     let places = plans.iter().map(reserve).collect::<Result<Vec<Place>>>()?;
-    let mut curves = findings::Curves::default();
+    let mut curves = Curves::default();
     let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
     let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
@@ -180,9 +185,14 @@ fn run_files(
         let started = Instant::now();
         let planned = plan.stages.total();
         let took = || planned + started.elapsed();
-        let found = findings::find(plan, &mut curves, &plan.stages)?;
-        let claims = claims::judge(plan, &found)?;
-        let place = results::write(plan, &found, claims.clone(), took, place)?;
+        let journal = Journal::open(place.unfinished(), &plan.id, fresh)?;
+        let done = || {
+            let found = findings::find(plan, &mut curves, &journal)?;
+            let claims = claims::judge(plan, &found)?;
+            let place = results::write(plan, &found, claims.clone(), took, place)?;
+            Ok((found, claims, place))
+        };
+        let (found, claims, place) = journal.until(done)?;
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));

@@ -115,9 +115,9 @@ fn warn_of_escapes(simulated: &Simulated, warnings: &mut Warnings) {
                 format!("at epsilon = {place} {who} escaped: no bounded orbit was found")
             }
             some => format!(
-                "at epsilon = {place} {some} of {n_runs} runs escaped; means there are over the other \
-                 {}, and no cluster counts as synchronised in a run that escaped",
-                n_runs - some
+                "at epsilon = {place} {some} of {n_runs} runs escaped; means there are over {}, and no \
+                 cluster counts as synchronised in a run that escaped",
+                simulated.bounded(stretch[0])
             ),
         };
         warnings.add("simulations", message);

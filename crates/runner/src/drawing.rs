@@ -198,20 +198,20 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
     }
 }
 
-/// The ranges of ε in which runs escaped, shaded, each as far as halfway to its neighbours.
+/// The ranges of ε in which runs came to no end, shaded, each as far as halfway to its neighbours.
 fn escapes(simulated: &Simulated) -> LinePanel {
     let (epsilon, n_runs) = (&simulated.epsilon, simulated.seeds.len());
-    let escaped: Vec<usize> = (0..epsilon.len()).map(|at| simulated.escaped(at)).collect();
+    let lost: Vec<usize> = (0..epsilon.len()).map(|at| simulated.broken_off(at)).collect();
     let halfway = |at: usize, next: usize| 0.5 * (epsilon[at] + epsilon[next]);
     let (mut shaded, last): (Vec<[f64; 2]>, _) = (Vec::new(), epsilon.len() - 1);
-    for at in (0..=last).filter(|&at| escaped[at] > 0) {
+    for at in (0..=last).filter(|&at| lost[at] > 0) {
         let (from, to) = (halfway(at.saturating_sub(1), at), halfway(at, (at + 1).min(last)));
         match shaded.last_mut() {
             Some(before) if before[1] == from => before[1] = to,
             _ => shaded.push([from, to]),
         }
     }
-    let some: Vec<usize> = escaped.into_iter().filter(|&count| count > 0).collect();
+    let some: Vec<usize> = lost.into_iter().filter(|&count| count > 0).collect();
     let count = match (some.iter().min(), some.iter().max()) {
         (Some(least), Some(most)) if least == most => format!("{least} of {n_runs}"),
         (Some(least), Some(most)) => format!("{least} to {most} of {n_runs}"),
@@ -221,7 +221,7 @@ fn escapes(simulated: &Simulated) -> LinePanel {
         shaded_label: if shaded.is_empty() {
             Label::default()
         } else {
-            Label::text(format!("{count} runs escaped"))
+            Label::text(format!("{count} runs {}", simulated.broke_off()))
         },
         shaded,
         ..LinePanel::default()

@@ -4,21 +4,22 @@ use clustering::{
     CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
     merge_equal_clusters,
 };
-use dynamics::{DynamicsError, Replica, Run, Schedule};
 use msf::{CriticalCoupling, MasterStability};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
 use crate::agreement::{self, Agreement};
 use crate::check;
+use crate::computed::{self, Curves};
 use crate::doubts;
-use crate::plan::{Plan, Sweep};
+use crate::journal::{Held, Journal};
+use crate::plan::Plan;
 use crate::prediction::Known;
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 use crate::simulated::{Seen, Simulated};
 use crate::stability;
-use crate::step_effect::{Probe, StepEffect};
+use crate::step_effect::StepEffect;
 use crate::synchrony::{Evidence, Synchrony};
 use crate::warning::{Warning, Warnings};
 
@@ -47,54 +48,25 @@ pub struct Findings {
     pub step_effects: Vec<StepEffect>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
+    /// What of this an earlier run had computed.
+    pub taken: Held,
     /// What must be known beside these numbers, in the order in which it came up.
     pub warnings: Vec<Warning>,
 }
 
-/// The master stability functions computed so far: experiments that ask for the same one share it.
-#[derive(Default)]
-pub struct Curves(Vec<(msf::Node, msf::Request, MasterStability)>);
-
-impl Curves {
-    /// The curve of a plan, computed unless an earlier plan had the same node and request.
-    fn of(&mut self, plan: &Plan, stages: &Stages) -> Result<MasterStability> {
-        let same = |known: &&(msf::Node, msf::Request, MasterStability)| {
-            known.0 == plan.node && known.1 == plan.msf
-        };
-        if let Some((_, _, curve)) = self.0.iter().find(same) {
-            return Ok(curve.clone());
-        }
-        let compute = |progress: dynamics::Progress<'_>| {
-            msf::master_stability(&plan.node, &plan.msf, progress)
-        };
-        let curve = stages
-            .measured("msf", plan.msf_steps(), compute)
-            .map_err(|error| msf_problem(plan, &error))?;
-        refuse_overflow(plan, &curve)?;
-        self.0.push((plan.node, plan.msf.clone(), curve.clone()));
-        Ok(curve)
-    }
-}
-
 /// Runs a plan: MSF, spectrum, prediction, simulation.
-pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Findings> {
-    let failed = |what: &str, error: &dyn std::fmt::Display| {
-        Problem::from_error(what, error).in_file(&plan.file)
-    };
+pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findings> {
+    let stages = &plan.stages;
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
     plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
-    let msf = curves.of(plan, stages)?;
+    let msf = curves.of(plan, journal)?;
     doubts::warn_of_short_times(plan, &mut warnings);
     stability::warn(plan, &msf, &mut warnings);
     let stable = &msf.stable;
     let n_nodes = plan.network.n_nodes();
     let request = plan.spectrum.request(stable, n_nodes);
-    let spectrum = stages
-        .told("spectrum", |tell| {
-            spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
-        })
-        .map_err(|error| failed("the spectrum could not be computed", &error))?;
+    let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
     let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
     let fastest = fastest(plan, &spectrum, &mut warnings);
@@ -112,13 +84,16 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         })
         .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
-        Some(sweep) => Some(simulate(plan, sweep, stages)?),
-        None => None,
+        Some(sweep) => Some(computed::simulate(plan, sweep, journal, &mut warnings)?),
+        None => {
+            journal.tell_taken();
+            None
+        }
     };
     let mut step_effects = Vec::new();
     if let (Some(sweep), Some(simulated)) = (&plan.sweep, &simulated) {
         doubts::warn_of_runs(&msf, simulated, &mut warnings);
-        step_effects = effects_of_step(plan, sweep, simulated, stages)?;
+        step_effects = computed::effects_of_step(plan, sweep, simulated, journal)?;
         step_effects.iter().for_each(|effect| effect.warn(&mut warnings));
     }
     let agreement = match &simulated {
@@ -135,12 +110,14 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         looked_to: msf.sigma[msf.sigma.len() - 1],
     });
     let cascade = merge_equal_clusters(&states);
-    let labels = labels(plan, &spectrum, &cascade, &states, stages)
-        .map_err(|error| failed("the clusters cannot be labelled", &error))?;
+    let labels = labels(plan, &spectrum, &cascade, &states, stages).map_err(|error| {
+        Problem::from_error("the clusters cannot be labelled", error).in_file(&plan.file)
+    })?;
     drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
+    let taken = journal.taken();
     Ok(Findings {
         cascade,
         labels,
@@ -152,6 +129,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         simulated,
         step_effects,
         agreement,
+        taken,
         warnings,
     })
 }
@@ -179,11 +157,6 @@ fn beyond(plan: &Plan, computed: usize, top: f64) -> String {
         plan.network.n_nodes(),
         plain(top)
     )
-}
-
-fn advanced(advance: spectra::Advance) -> String {
-    let spectra::Advance { products, converged, wanted } = advance;
-    format!("{converged} of {wanted} modes found, {products} matrix-vector products")
 }
 
 fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {
@@ -216,74 +189,6 @@ fn labels(
             labels
         };
         cascade.par_iter().map(of).collect()
-    })
-}
-
-fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {
-    let what = "the master stability function could not be computed";
-    let problem = Problem::from_error(what, error).in_file(&plan.file);
-    if !matches!(error, msf::MsfError::Dynamics(DynamicsError::Escaped { .. })) {
-        return problem;
-    }
-    problem.hint(format!(
-        "either the parameters of [oscillator.{}] leave it no bounded attractor, or `msf.step` is \
-         too long for it",
-        plan.node.model.name()
-    ))
-}
-
-/// A perturbation may grow beyond all numbers between two renormalisations.
-fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
-    let Some(at) = msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) else {
-        return Ok(());
-    };
-    let message = format!(
-        "reaches {}, where perturbations grow beyond all numbers between two renormalisations",
-        plain(msf.sigma[at])
-    );
-    let hint = "end the grid earlier, or shorten `msf.renormalise` and `msf.step`";
-    Err(Problem::with_key(&plan.file, "msf.sigma", message).hint(hint))
-}
-
-fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
-    let runs = runs(plan, sweep, sweep.schedule, &sweep.replicas(), ("sweep", stages))?;
-    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
-}
-
-/// Some replicas at the step of the sweep and at half of it.
-fn effects_of_step(
-    plan: &Plan,
-    sweep: &Sweep,
-    simulated: &Simulated,
-    stages: &Stages,
-) -> Result<Vec<StepEffect>> {
-    let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
-    let at = |schedule| runs(plan, sweep, schedule, &probe.replicas, ("half step", stages));
-    let [at_step, at_half] = probe.schedules.map(at);
-    Ok(probe.effects(simulated, [&at_step?, &at_half?]))
-}
-
-/// Runs replicas of a sweep over times of its own or others, as one stage.
-fn runs(
-    plan: &Plan,
-    sweep: &Sweep,
-    schedule: Schedule,
-    replicas: &[Replica],
-    (stage, stages): (&str, &Stages),
-) -> Result<Vec<Run>> {
-    let simulation = dynamics::Simulation {
-        model: plan.node.model,
-        coupling: plan.node.coupling,
-        matrix: plan.matrix.matrix(),
-        method: sweep.method,
-        schedule,
-        observables: sweep.observables.clone(),
-        kick: sweep.kick,
-        instruction_set: plan.msf.instruction_set,
-    };
-    let steps = replicas.len() as u64 * schedule.steps();
-    stages.measured(stage, steps, |progress| simulation.run(replicas, progress)).map_err(|error| {
-        Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
     })
 }
 

@@ -5,6 +5,7 @@ mod states;
 
 use std::time::Duration;
 
+use dynamics::{Outcome, Run};
 use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
@@ -14,7 +15,7 @@ use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
 use crate::place::Origin;
 use crate::plan::Plan;
-use crate::provenance::{Provenance, links_hash};
+use crate::provenance::Provenance;
 use crate::simulated::OverSeeds;
 use crate::spec::StepSpec;
 use crate::stability::word;
@@ -202,7 +203,7 @@ pub struct CriticalRecord {
 #[derive(Serialize)]
 pub struct SimulationRecord {
     pub epsilon: f64,
-    /// `completed`, `escaped`, or both counted.
+    /// `completed`, `escaped`, `failed` (the adaptive integrator gave up), or how many did.
     pub outcome: String,
     /// Runs that stayed bounded: clusters and agreement are of means over these.
     pub n_seeds: usize,
@@ -257,7 +258,6 @@ pub fn summarise(
     origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
-    let links_hash = links_hash(network);
     Summary {
         layout: LAYOUT,
         parameters: parameters::of(plan),
@@ -272,7 +272,7 @@ pub fn summarise(
             links: network.n_links(),
             components: plan.n_components,
             isolated_nodes: network.isolated_nodes().len(),
-            links_hash: links_hash.clone(),
+            links_hash: plan.links_hash.clone(),
         },
         eigenvalues: spectrum.eigenvalues.clone(),
         spectrum: SpectrumRecord {
@@ -301,7 +301,7 @@ pub fn summarise(
         simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took, origin),
+        provenance: Provenance::new(plan, findings.taken, took, origin),
         experiment: plan.written.clone(),
     }
 }
@@ -384,31 +384,40 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
 fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord> {
     let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) else { return vec![] };
     let reference = sweep.observables.reference.map_or(0, |_| plan.network.n_nodes());
-    let record = |(position, &epsilon): (usize, &f64)| {
-        let n_runs = simulated.seeds.len();
-        SimulationRecord {
-            epsilon,
-            outcome: match simulated.escaped(position) {
-                0 => "completed".into(),
-                all if all == n_runs => "escaped".into(),
-                some => format!("{some} of {n_runs} escaped"),
-            },
-            n_seeds: simulated.bounded(position),
-            clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
-            agreement: findings
-                .agreement
-                .get(position)
-                .filter(|agreement| matches!(agreement.predicted, Predicted::Unstable(_)))
-                .map(|agreement| agreement_record(plan, agreement)),
-            error_to_reference: (0..reference)
-                .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
-                .collect(),
-            error_within_clusters: (0..sweep.observables.clusters.len())
-                .map(|m| simulated.over_seeds(position, |errors| errors.within_clusters[m]))
-                .collect(),
-        }
+    let record = |(position, &epsilon): (usize, &f64)| SimulationRecord {
+        epsilon,
+        outcome: outcome(simulated.at(position)),
+        n_seeds: simulated.bounded(position),
+        clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
+        agreement: findings
+            .agreement
+            .get(position)
+            .filter(|agreement| matches!(agreement.predicted, Predicted::Unstable(_)))
+            .map(|agreement| agreement_record(plan, agreement)),
+        error_to_reference: (0..reference)
+            .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
+            .collect(),
+        error_within_clusters: (0..sweep.observables.clusters.len())
+            .map(|m| simulated.over_seeds(position, |errors| errors.within_clusters[m]))
+            .collect(),
     };
     simulated.epsilon.iter().enumerate().map(record).collect()
+}
+
+/// How the runs at one ε ended.
+fn outcome(runs: &[Run]) -> String {
+    let count = |ended: fn(&Run) -> bool| runs.iter().filter(|run| ended(run)).count();
+    let escaped = count(|run| matches!(run.outcome, Outcome::Escaped { .. }));
+    let failed = count(|run| matches!(run.outcome, Outcome::Failed { .. }));
+    let all = runs.len();
+    match (escaped, failed) {
+        (0, 0) => "completed".into(),
+        (escaped, 0) if escaped == all => "escaped".into(),
+        (0, failed) if failed == all => "failed".into(),
+        (escaped, 0) => format!("{escaped} of {all} escaped"),
+        (0, failed) => format!("{failed} of {all} failed"),
+        (escaped, failed) => format!("{escaped} of {all} escaped, {failed} failed"),
+    }
 }
 
 fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {

@@ -115,12 +115,24 @@ impl Simulated {
 
     /// How many runs at one ε escaped.
     pub fn escaped(&self, position: usize) -> usize {
+        let escaped = |run: &&Run| matches!(run.outcome, Outcome::Escaped { .. });
+        self.at(position).iter().filter(escaped).count()
+    }
+
+    /// How many runs at one ε came to no end: they escaped, or the integrator gave up.
+    pub fn broken_off(&self, position: usize) -> usize {
         self.at(position).iter().filter(|run| completed(run).is_none()).count()
+    }
+
+    /// What runs did that came to no end, in a word.
+    pub fn broke_off(&self) -> &'static str {
+        let has_failed = self.runs.iter().any(|run| matches!(run.outcome, Outcome::Failed { .. }));
+        if has_failed { "broke off" } else { "escaped" }
     }
 
     /// How many runs at one ε stayed bounded.
     pub fn bounded(&self, position: usize) -> usize {
-        self.seeds.len() - self.escaped(position)
+        self.seeds.len() - self.broken_off(position)
     }
 
     /// δx_ij at one ε as means over the seeds that stayed bounded; none if none did.
@@ -202,7 +214,7 @@ impl Simulated {
 pub fn completed(run: &Run) -> Option<&Errors> {
     match &run.outcome {
         Outcome::Completed(errors) => Some(errors),
-        Outcome::Escaped { .. } => None,
+        Outcome::Escaped { .. } | Outcome::Failed { .. } => None,
     }
 }
 

@@ -12,7 +12,7 @@
 //! Sec. II.4, on errors from two step sizes.
 
 use dynamics::{Errors, Estimate, Method, Replica, Run, Schedule};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::plan::Sweep;
 use crate::simulated::{Simulated, completed};
@@ -43,7 +43,7 @@ pub struct Probe {
 }
 
 /// The effect of the step at one coupling.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StepEffect {
     pub epsilon: f64,
     /// Step of the sweep.
@@ -162,7 +162,7 @@ impl StepEffect {
 /// synchronised; the one in the middle where these are one.
 fn couplings(simulated: &Simulated) -> Vec<f64> {
     let bounded: Vec<usize> = (0..simulated.epsilon.len())
-        .filter(|&at| simulated.epsilon[at] > 0.0 && simulated.escaped(at) == 0)
+        .filter(|&at| simulated.epsilon[at] > 0.0 && simulated.broken_off(at) == 0)
         .collect();
     let Some(&last) = bounded.last() else { return Vec::new() };
     let is_apart = |at: &usize| {

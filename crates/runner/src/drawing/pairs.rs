@@ -201,22 +201,22 @@ fn errors(
         values: error_matrix(plan, simulated, position),
         range: None,
         bar_label: Label::math("δx").subscript("ij"),
-        without_values: Label::text("all runs escaped"),
+        without_values: Label::text(format!("all runs {}", simulated.broke_off())),
         groups: groups(plan),
     }
 }
 
-/// The correlation with δe_ij, and of how many runs the means are if some escaped.
+/// The correlation with δe_ij, and of how many runs the means are if some came to no end.
 fn error_title(simulated: &Simulated, correlation: Option<Correlation>, position: usize) -> Label {
     let n_runs = simulated.seeds.len();
-    let escaped = match simulated.escaped(position) {
-        escaped if escaped == 0 || escaped == n_runs => None,
-        escaped => Some(format!("{escaped} of {n_runs} runs escaped")),
+    let lost = match simulated.broken_off(position) {
+        lost if lost == 0 || lost == n_runs => None,
+        lost => Some(format!("{lost} of {n_runs} runs {}", simulated.broke_off())),
     };
-    match (correlation.map(|correlation| correlation.pearson), escaped) {
+    match (correlation.map(|correlation| correlation.pearson), lost) {
         (Some(r), None) => Label::math("r").with_text(format!(" = {r:.2}")),
-        (Some(r), Some(escaped)) => Label::math("r").with_text(format!(" = {r:.2}, {escaped}")),
-        (None, escaped) => Label::text(escaped.unwrap_or_default()),
+        (Some(r), Some(lost)) => Label::math("r").with_text(format!(" = {r:.2}, {lost}")),
+        (None, lost) => Label::text(lost.unwrap_or_default()),
     }
 }
 
