@@ -210,6 +210,11 @@ impl Walk<'_> {
         siblings: Siblings,
     ) -> Option<String> {
         let key = error_key(kind)?;
+        let is_unrefined =
+            |side: &&Map<String, Value>| side.get("refined") == Some(&Value::Bool(false));
+        if siblings.iter().any(|side| is_unrefined(&side)) {
+            return Some("the zero of Λ that it follows from could not be refined".into());
+        }
         let [golden, own] =
             siblings.map(|side| side.get(key).and_then(Value::as_f64).unwrap_or(0.0));
         // Numbers near zero, as errors near synchrony are, are known by the scale of their kind.
