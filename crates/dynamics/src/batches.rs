@@ -5,7 +5,7 @@ use crate::kernel::{Network, WIDTH};
 use crate::kicks::Kicks;
 use crate::links::Links;
 use crate::observables::ErrorSums;
-use crate::{Oscillator, Outcome, Progress, Replica, Simulation};
+use crate::{Next, Observer, Oscillator, Outcome, Simulation, Snapshot, Start};
 
 /// Numbers of lanes, and what a step of so many costs beside that of a single one: measured on
 /// networks of 90 and 989 nodes with AVX-512, and rounded.
@@ -16,6 +16,15 @@ const COSTS: [(usize, f64); 5] = [(1, 1.0), (2, 1.1), (4, 1.6), (8, 2.25), (WIDT
 pub(crate) fn sizes(n_replicas: usize, n_threads: usize) -> Vec<usize> {
     let share = |thread: usize| (n_replicas + thread) / n_threads;
     (0..n_threads).rev().flat_map(|thread| cheapest(share(thread))).collect()
+}
+
+/// The batches of all replicas. Those of one batch go on from the same sample, fresh ones from none.
+pub(crate) fn of(mut starts: Vec<Numbered>, n_threads: usize) -> Vec<Vec<Numbered>> {
+    starts.sort_by_key(|start| start.1.sample());
+    let same = starts.chunk_by(|a, b| a.1.sample() == b.1.sample());
+    let sizes: Vec<usize> = same.flat_map(|same| sizes(same.len(), n_threads)).collect();
+    let mut left = starts.into_iter();
+    sizes.into_iter().map(|size| left.by_ref().take(size).collect()).collect()
 }
 
 /// Sizes of the batches of one thread, large ones first.
@@ -37,55 +46,133 @@ fn cheapest(n_replicas: usize) -> Vec<usize> {
     sizes
 }
 
+/// A replica to run, with its place in the list that was asked for.
+pub(crate) type Numbered = (usize, Start);
+
 /// Replicas advanced side by side in `L` lanes, their rows summed `R` side by side.
 pub(crate) struct Batch<'a, O, const D: usize, const L: usize, const R: usize> {
     pub(crate) simulation: &'a Simulation<'a>,
     pub(crate) links: &'a Links,
     pub(crate) oscillator: O,
-    /// At most `L`.
-    pub(crate) replicas: &'a [Replica],
-    pub(crate) progress: Progress<'a>,
+    /// At most `L`, all after the same sample.
+    pub(crate) starts: Vec<Numbered>,
+    pub(crate) observer: &'a dyn Observer,
 }
 
 impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Work
     for Batch<'_, O, D, L, R>
 {
-    type Output = Vec<Outcome>;
+    /// None when the observer wanted to stop.
+    type Output = Option<Vec<(usize, Outcome)>>;
 
     #[inline(always)]
-    fn run(self) -> Vec<Outcome> {
-        let Self { simulation, links, oscillator, replicas, progress } = self;
-        let Simulation { schedule, observables, coupling, kick, .. } = simulation;
+    fn run(self) -> Self::Output {
+        let Self { simulation, links, oscillator, starts, observer } = self;
+        let Simulation { schedule, observables, kick, .. } = simulation;
         // Lanes beyond the batch repeat its last replica and are never read.
-        let in_lanes = std::array::from_fn(|lane| replicas[lane.min(replicas.len() - 1)]);
-        let mut network = Network::<O, D, L, R>::new(oscillator, *coupling, links, in_lanes);
-        let mut sums =
-            ErrorSums::<L>::new(observables, links.n_nodes(), schedule.samples_per_block());
-        let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), in_lanes);
-        let mut escaped_at = [None; L];
-        for sample in 1..=schedule.transient_samples() + schedule.samples() {
-            network.advance(schedule.stride, schedule.step);
-            for (escaped_at, bounded) in escaped_at.iter_mut().zip(network.bounded()) {
-                if escaped_at.is_none() && !bounded {
-                    *escaped_at = Some(schedule.time_of(sample));
+        let in_lanes = std::array::from_fn(|lane| starts[lane.min(starts.len() - 1)].1.replica);
+        let mut lanes = InLanes::<O, D, L, R> {
+            network: Network::new(oscillator, simulation.coupling, links, in_lanes),
+            sums: ErrorSums::new(observables, links.n_nodes(), schedule.samples_per_block()),
+            kicks: Kicks::new(*kick, schedule.sampling_interval(), in_lanes),
+        };
+        let numbers: Vec<usize> = starts.iter().map(|start| start.0).collect();
+        let transient = schedule.transient_samples();
+        let (done, end) = (starts[0].1.sample(), transient + schedule.samples());
+        if done > 0 {
+            lanes.restore(starts, (done, transient), links.n_nodes());
+        }
+        let mut outcomes: [Option<Outcome>; L] = std::array::from_fn(|_| None);
+        for sample in done + 1..=end {
+            lanes.network.advance(schedule.stride, schedule.step);
+            for (lane, bounded) in lanes.network.bounded().into_iter().enumerate() {
+                if outcomes[lane].is_none() && !bounded {
+                    let outcome = Outcome::Escaped { time: schedule.time_of(sample) };
+                    finish(&mut outcomes, lane, outcome, &numbers, observer);
                 }
             }
-            if escaped_at.iter().all(Option::is_some) {
+            if outcomes.iter().all(Option::is_some) {
                 break;
             }
-            if sample > schedule.transient_samples() {
-                sums.sample(network.component(observables.component));
+            if sample > transient {
+                lanes.sums.sample(lanes.network.component(observables.component));
             }
-            if kicks.due(sample) {
+            if lanes.kicks.due(sample) {
+                let InLanes { network, kicks, .. } = &mut lanes;
                 network.change_state(|_, _, lanes| kicks.apply(lanes));
             }
-            progress(u64::from(schedule.stride) * replicas.len() as u64);
+            let steps = u64::from(schedule.stride) * numbers.len() as u64;
+            match observer.advanced(&numbers, steps) {
+                Next::GoOn => {}
+                Next::Snapshot if sample < end => {
+                    let going = numbers.iter().zip(0..).filter(|&(_, at)| outcomes[at].is_none());
+                    for (&number, lane) in going {
+                        observer.snapshot(number, lanes.snapshot(lane, (sample, transient)));
+                    }
+                }
+                Next::Stop if sample < end => return None,
+                Next::Snapshot | Next::Stop => {}
+            }
         }
-        let outcome = |lane: usize| match escaped_at[lane] {
-            Some(time) => Outcome::Escaped { time },
-            None => Outcome::Completed(sums.errors(lane)),
-        };
-        (0..replicas.len()).map(outcome).collect()
+        for lane in 0..numbers.len() {
+            if outcomes[lane].is_none() {
+                let outcome = Outcome::Completed(lanes.sums.errors(lane));
+                finish(&mut outcomes, lane, outcome, &numbers, observer);
+            }
+        }
+        Some(numbers.into_iter().zip(outcomes.into_iter().flatten()).collect())
+    }
+}
+
+/// Keeps the outcome of a lane and tells it, if a replica of its own is in it.
+#[cold]
+#[inline(never)]
+fn finish(
+    outcomes: &mut [Option<Outcome>],
+    lane: usize,
+    outcome: Outcome,
+    numbers: &[usize],
+    observer: &dyn Observer,
+) {
+    if let Some(&number) = numbers.get(lane) {
+        observer.finished(number, &outcome);
+    }
+    outcomes[lane] = Some(outcome);
+}
+
+/// All that changes while a batch runs.
+struct InLanes<O, const D: usize, const L: usize, const R: usize> {
+    network: Network<O, D, L, R>,
+    sums: ErrorSums<L>,
+    kicks: Kicks<L>,
+}
+
+impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> InLanes<O, D, L, R> {
+    /// Takes up every replica where its snapshot left it.
+    #[cold]
+    #[inline(never)]
+    fn restore(&mut self, starts: Vec<Numbered>, (sample, transient): (u64, u64), n_nodes: usize) {
+        let snapshots: Vec<Snapshot> =
+            starts.into_iter().filter_map(|start| start.1.from).collect();
+        let of = |lane: usize| &snapshots[lane.min(snapshots.len() - 1)];
+        self.network.change_state(|component, node, lanes| {
+            *lanes = std::array::from_fn(|lane| of(lane).state[component * n_nodes + node]);
+        });
+        if sample > transient {
+            (0..L).for_each(|lane| self.sums.restore(lane, &of(lane).sums));
+            self.sums.go_on_after(sample - transient);
+        }
+        self.kicks.go_on_after(sample, D * n_nodes);
+    }
+
+    /// What a lane has come to.
+    #[cold]
+    #[inline(never)]
+    fn snapshot(&mut self, lane: usize, (sample, transient): (u64, u64)) -> Snapshot {
+        let component = |c| self.network.component(c).map(|lanes| lanes[lane]);
+        let state = (0..D).flat_map(component).collect();
+        let sums = if sample > transient { self.sums.kept(lane) } else { Vec::new() };
+        Snapshot { sample, state, sums }
     }
 }
 

@@ -38,6 +38,23 @@ impl BlockMeans {
         }
     }
 
+    /// What a quantity has come to: its sum, mean and squares.
+    pub(crate) fn parts(&self, index: usize) -> [f64; 3] {
+        [self.sums[index], self.mean[index], self.squares[index]]
+    }
+
+    /// Takes up a quantity where it stood.
+    pub(crate) fn put(&mut self, index: usize, [sum, mean, squares]: [f64; 3]) {
+        self.sums[index] = sum;
+        self.mean[index] = mean;
+        self.squares[index] = squares;
+    }
+
+    /// Goes on after so many finished blocks.
+    pub(crate) fn go_on_after(&mut self, blocks: u32) {
+        self.blocks = blocks;
+    }
+
     /// Mean of all blocks with its standard error.
     pub(crate) fn estimate(&self, index: usize) -> Estimate {
         let blocks = BLOCKS as f64;

@@ -68,7 +68,7 @@ impl<const L: usize> Samples<L> {
 pub(crate) struct Differences<const T: usize, const L: usize> {
     tiles: Vec<Tile<T>>,
     /// `[tile][run][i within the tile][number in the run]`.
-    means: BlockMeans,
+    pub(crate) means: BlockMeans,
 }
 
 /// Nodes whose sums are made together.
@@ -125,11 +125,16 @@ impl<const T: usize, const L: usize> Differences<T, L> {
         self.means.close(samples);
     }
 
-    /// ⟨|x_i − x_j|⟩ for the i of a row.
-    pub(crate) fn estimate(&self, row: usize, j: usize, lane: usize) -> crate::Estimate {
+    /// Where the means of ⟨|x_i − x_j|⟩ stand for the i of a row.
+    pub(crate) fn index(&self, row: usize, j: usize, lane: usize) -> usize {
         let (tile, (run, place)) = (&self.tiles[row / T], place::<L>(j));
         let vector = (tile.before + run - tile.first_run) * T + row % T;
-        self.means.estimate(vector * WIDTH + place + lane)
+        vector * WIDTH + place + lane
+    }
+
+    /// ⟨|x_i − x_j|⟩ for the i of a row.
+    pub(crate) fn estimate(&self, row: usize, j: usize, lane: usize) -> crate::Estimate {
+        self.means.estimate(self.index(row, j, lane))
     }
 }
 

@@ -38,14 +38,9 @@ pub enum DynamicsError {
         /// Model time at which it was seen.
         time: f64,
     },
-    /// The adaptive integrator gave up.
-    #[error("the adaptive integrator stopped at time {time}: {reason}")]
-    Adaptive {
-        /// Model time at the start of the stretch in which it stopped.
-        time: f64,
-        /// What the integrator says.
-        reason: String,
-    },
+    /// The observer wanted the simulation to stop.
+    #[error("the simulation was stopped before its end")]
+    Cancelled,
 }
 
 /// Checks a step, named times and the number of samples they give, in model time units.

@@ -37,6 +37,14 @@ impl<const L: usize> Kicks<L> {
         }
     }
 
+    /// Goes on after a sample, kicks of so many numbers a replica behind it: each takes one draw.
+    pub(crate) fn go_on_after(&mut self, sample: u64, numbers: usize) {
+        if self.size > 0.0 {
+            let draws = u128::from(sample / self.samples_between) * numbers as u128;
+            self.generators.iter_mut().for_each(|generator| generator.advance(draws));
+        }
+    }
+
     /// Whether kicks are due at a sample.
     pub(crate) fn due(&self, sample: u64) -> bool {
         self.size > 0.0 && sample.is_multiple_of(self.samples_between)

@@ -22,6 +22,7 @@ mod linear_step;
 mod links;
 pub mod lyapunov;
 mod observables;
+mod observer;
 mod oscillator;
 mod oscillators;
 mod random;
@@ -29,6 +30,7 @@ mod row_sums;
 mod scalar;
 mod shared_sums;
 mod simulation;
+mod slow_time;
 mod statistics;
 
 pub use coupling::Coupling;
@@ -37,10 +39,12 @@ pub use instruction_set::{InstructionSet, Work};
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
 pub use linear_step::{LinearSteps, StepVerdict};
 pub use observables::{Errors, Observables, pair_index};
+pub use observer::{Next, Observer, Snapshot, Start};
 pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
 pub use scalar::{Dual, Lanes, Scalar};
 pub use simulation::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
+pub use slow_time::slow_time;
 pub use statistics::{BLOCKS, Estimate};
 
 /// Sparse matrix in compressed-row form with 32-bit column indices.

@@ -31,7 +31,7 @@ const MAX_LANES: usize = 16;
 const SHARED_ORBIT: usize = 4;
 
 /// Times of an average over an orbit, in model time units, with a fixed RK4 step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Times {
     /// Step of the integrator.
     pub step: f64,

@@ -7,12 +7,14 @@
 //! Source: Fan, Wang & Wang (2023), Fig. 1 and Sec. III A. Only sums over samples are kept, never a
 //! trajectory.
 
+use serde::{Deserialize, Serialize};
+
 use crate::block_means::BlockMeans;
 use crate::differences::{Differences, SAMPLES, Samples};
 use crate::{Estimate, Lanes};
 
 /// Which synchronisation errors to average.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Observables {
     /// Component whose differences are taken (from 0).
     pub component: usize,
@@ -25,7 +27,7 @@ pub struct Observables {
 }
 
 /// Time-averaged synchronisation errors of one replica, in units of the component.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// δx_ij for i < j, ordered (0,1), (0,2), …, (1,2), …; empty unless asked for.
     pub pairs: Vec<Estimate>,
@@ -33,6 +35,15 @@ pub struct Errors {
     pub to_reference: Vec<Estimate>,
     /// δx^c_m of each cluster.
     pub within_clusters: Vec<Estimate>,
+}
+
+impl Observables {
+    /// Numbers of sums that a replica of so many nodes carries along.
+    pub(crate) fn n_sums(&self, n_nodes: usize) -> usize {
+        let pairs = if self.pairs { n_nodes * n_nodes.saturating_sub(1) / 2 } else { 0 };
+        let to_reference = self.reference.map_or(0, |_| n_nodes);
+        PARTS * (pairs + to_reference + self.clusters.len())
+    }
 }
 
 impl Errors {
@@ -62,6 +73,9 @@ pub(crate) struct ErrorSums<const L: usize> {
     samples_per_block: u64,
     samples_in_block: u64,
 }
+
+/// Numbers that a snapshot keeps of each quantity.
+const PARTS: usize = 3;
 
 /// Nodes whose differences from all others are taken together.
 const PAIR_ROWS: usize = 2;
@@ -123,6 +137,61 @@ impl<const L: usize> ErrorSums<L> {
             means.close((nodes.len() * (nodes.len() - 1) / 2) as f64 * samples);
         }
         self.samples_in_block = 0;
+    }
+
+    /// All that one lane has come to, [`Observables::n_sums`] numbers. Samples that wait are added
+    /// first, which changes no bit: every sum takes them in their order.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn kept(&mut self, lane: usize) -> Vec<f64> {
+        self.add_samples();
+        let mut kept = Vec::new();
+        self.each(lane, |means, index| kept.extend(means.parts(index)));
+        kept
+    }
+
+    /// Takes up a lane where [`Self::kept`] left it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn restore(&mut self, lane: usize, kept: &[f64]) {
+        let mut parts = kept.as_chunks::<PARTS>().0.iter();
+        self.each(lane, |means, index| {
+            means.put(index, *parts.next().expect("a snapshot has all sums"));
+        });
+    }
+
+    /// Goes on after so many samples.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn go_on_after(&mut self, samples: u64) {
+        self.samples_in_block = samples % self.samples_per_block;
+        let blocks = u32::try_from(samples / self.samples_per_block).expect("there are few blocks");
+        let of_pairs = self.pairs.iter_mut().map(|pairs| &mut pairs.means);
+        let of_reference = self.reference.iter_mut().map(|reference| &mut reference.means);
+        let of_clusters = self.clusters.iter_mut().map(|(_, means)| means);
+        for means in of_pairs.chain(of_reference).chain(of_clusters) {
+            means.go_on_after(blocks);
+        }
+    }
+
+    /// Visits the quantities of a lane, in the order of [`Errors`].
+    fn each(&mut self, lane: usize, mut visit: impl FnMut(&mut BlockMeans, usize)) {
+        let n = self.n_nodes;
+        if let Some(pairs) = &mut self.pairs {
+            for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))) {
+                let index = pairs.index(i, j, lane);
+                visit(&mut pairs.means, index);
+            }
+        }
+        if let Some(reference) = &mut self.reference {
+            for node in 0..n {
+                let index = reference.index(0, node, lane);
+                visit(&mut reference.means, index);
+            }
+        }
+        for (_, means) in &mut self.clusters {
+            visit(means, lane);
+        }
     }
 
     /// The averages of one lane.

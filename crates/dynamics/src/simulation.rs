@@ -2,22 +2,29 @@
 //!
 //! What is asked for and what comes out; the step itself is in [`crate::kernel`].
 
-use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::batches::{self, Batch};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::batches::{self, Batch, Numbered};
 use crate::error::{check_times, whole};
 use crate::integrators::{Method, adaptive};
 use crate::links::Links;
 use crate::observables::{Errors, Observables};
+use crate::observer::Counting;
 use crate::oscillators::with_oscillator;
 use crate::statistics::BLOCKS;
-use crate::{Coupling, DynamicsError, InstructionSet, Model, Oscillator, Progress, SparseMatrix};
+use crate::{
+    Coupling, DynamicsError, InstructionSet, Model, Observer, Oscillator, Progress, Snapshot,
+    SparseMatrix, Start,
+};
 
 /// Relative size of kicks of some fifty roundings.
 pub const ROUNDING_KICK: f64 = 1e-14;
 
 /// How long to simulate and how often to look. All times in model time units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Schedule {
     /// Step of the integrator (the sampling unit of an adaptive one).
     pub step: f64,
@@ -39,7 +46,7 @@ pub struct Replica {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// It stayed bounded: its time-averaged errors.
     Completed(Errors),
@@ -47,6 +54,13 @@ pub enum Outcome {
     Escaped {
         /// Model time of the sample at which it was seen.
         time: f64,
+    },
+    /// The adaptive integrator gave up, as where the equations are stiff.
+    Failed {
+        /// Model time at which it did.
+        time: f64,
+        /// Why.
+        reason: String,
     },
 }
 
@@ -86,65 +100,114 @@ impl Simulation<'_> {
     ///
     /// # Errors
     /// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`] and [`DynamicsError::TooFewSamples`] for
-    /// a schedule that makes no sense; [`DynamicsError::Adaptive`] when the adaptive integrator gives
-    /// up. An orbit that escapes is an [`Outcome`], not an error.
+    /// a schedule that makes no sense. An orbit that escapes, or cannot be integrated, is an
+    /// [`Outcome`], not an error.
     pub fn run(
         &self,
         replicas: &[Replica],
         progress: Progress<'_>,
     ) -> Result<Vec<Run>, DynamicsError> {
-        self.schedule.check()?;
-        with_oscillator!(self.model, oscillator => {
-            let outcomes = match self.method {
-                Method::Rk4 => self.run_in_lanes(oscillator, replicas, progress),
-                Method::Adaptive(adaptive) => replicas
-                    .par_iter()
-                    .map(|&replica| adaptive::run(oscillator, self, adaptive, replica, progress))
-                    .collect::<Result<Vec<_>, _>>()?,
-            };
-            Ok(replicas
-                .iter()
-                .zip(outcomes)
-                .map(|(&replica, outcome)| Run { replica, outcome })
-                .collect())
-        })
+        let starts = replicas.iter().map(|&replica| Start::from(replica)).collect();
+        self.run_observed(starts, &Counting(progress))
     }
 
-    /// Batches of lanes, as many as keep all threads busy.
+    /// The same from initial states or from snapshots, with an observer that is told of every replica
+    /// as it ends and may stop the run. The outcomes do not depend on where replicas start.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`], and [`DynamicsError::Cancelled`] when the observer wanted to stop: then
+    /// only the outcomes that it was told of are there.
+    ///
+    /// # Panics
+    /// When a snapshot is of another simulation: see [`Self::can_start_from`].
+    pub fn run_observed(
+        &self,
+        starts: Vec<Start>,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Run>, DynamicsError> {
+        self.schedule.check()?;
+        for snapshot in starts.iter().filter_map(|start| start.from.as_ref()) {
+            assert!(self.can_start_from(snapshot), "a snapshot is of another simulation");
+        }
+        let replicas: Vec<Replica> = starts.iter().map(|start| start.replica).collect();
+        let starts: Vec<Numbered> = starts.into_iter().enumerate().collect();
+        let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
+        with_oscillator!(self.model, oscillator => {
+            let told = match self.method {
+                Method::Rk4 => self.run_in_lanes(oscillator, starts, observer),
+                Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
+                    let outcome =
+                        adaptive::run(oscillator, self, method, (number, start), observer)?;
+                    Some((number, outcome))
+                }),
+            };
+            for (number, outcome) in told.ok_or(DynamicsError::Cancelled)? {
+                outcomes[number] = Some(outcome);
+            }
+        });
+        let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
+            replica,
+            outcome: outcome.expect("every replica is in one batch"),
+        };
+        Ok(replicas.into_iter().zip(outcomes).map(run).collect())
+    }
+
+    /// Whether a snapshot has the shape of those of this simulation. Whether it is of the same
+    /// equations, matrix, ε and seed, only its keeper can know.
+    pub fn can_start_from(&self, snapshot: &Snapshot) -> bool {
+        let n_nodes = self.matrix.rows();
+        let transient = self.schedule.transient_samples();
+        let n_sums = if snapshot.sample > transient { self.observables.n_sums(n_nodes) } else { 0 };
+        (1..transient + self.schedule.samples()).contains(&snapshot.sample)
+            && snapshot.state.len() == self.model.components().len() * n_nodes
+            && snapshot.sums.len() == n_sums
+    }
+
+    /// Batches of lanes, as many as keep all threads busy; none when the observer wanted to stop.
     fn run_in_lanes<O: Oscillator<D>, const D: usize>(
         &self,
         oscillator: O,
-        replicas: &[Replica],
-        progress: Progress<'_>,
-    ) -> Vec<Outcome> {
+        starts: Vec<Numbered>,
+        observer: &dyn Observer,
+    ) -> Option<Vec<(usize, Outcome)>> {
         let links = Links::new(self.matrix);
         macro_rules! run {
-            ($replicas:ident in $lanes:literal lanes, $rows:literal rows) => {
+            ($starts:ident in $lanes:literal lanes, $rows:literal rows) => {
                 self.instruction_set.run(Batch::<O, D, $lanes, $rows> {
                     simulation: self,
                     links: &links,
                     oscillator,
-                    replicas: $replicas,
-                    progress,
+                    starts: $starts,
+                    observer,
                 })
             };
         }
         // Rows side by side: enough sums to hide how long one addition takes.
-        let run = |replicas: &[Replica]| match replicas.len() {
-            1 => run!(replicas in 1 lanes, 8 rows),
-            2 => run!(replicas in 2 lanes, 4 rows),
-            3..=4 => run!(replicas in 4 lanes, 4 rows),
-            5..=8 => run!(replicas in 8 lanes, 2 rows),
-            _ => run!(replicas in 16 lanes, 1 rows),
+        let run = |starts: Vec<Numbered>| match starts.len() {
+            1 => run!(starts in 1 lanes, 8 rows),
+            2 => run!(starts in 2 lanes, 4 rows),
+            3..=4 => run!(starts in 4 lanes, 4 rows),
+            5..=8 => run!(starts in 8 lanes, 2 rows),
+            _ => run!(starts in 16 lanes, 1 rows),
         };
-        let mut left = replicas;
-        let batches: Vec<&[Replica]> = batches::sizes(replicas.len(), rayon::current_num_threads())
-            .into_iter()
-            .map(|size| left.split_off(..size).expect("sizes add up to the replicas"))
-            .collect();
-        let outcomes: Vec<_> = batches.into_par_iter().with_max_len(1).map(run).collect();
-        outcomes.into_iter().flatten().collect()
+        let batches = batches::of(starts, rayon::current_num_threads());
+        Some(run_unless_stopped(batches, run)?.into_iter().flatten().collect())
     }
+}
+
+/// Does all pieces of work in parallel; begins no other once one has been stopped.
+fn run_unless_stopped<W: Send, T: Send>(
+    pieces: Vec<W>,
+    run: impl Fn(W) -> Option<T> + Sync,
+) -> Option<Vec<T>> {
+    let stopped = AtomicBool::new(false);
+    let run = |piece: W| {
+        let done = if stopped.load(Ordering::Relaxed) { None } else { run(piece) };
+        stopped.fetch_or(done.is_none(), Ordering::Relaxed);
+        done
+    };
+    let done: Vec<_> = pieces.into_par_iter().with_max_len(1).map(run).collect();
+    done.into_iter().collect()
 }
 
 impl Schedule {

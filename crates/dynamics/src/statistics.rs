@@ -2,12 +2,14 @@
 //!
 //! Source: H. Flyvbjerg & H. G. Petersen, J. Chem. Phys. 91, 461 (1989).
 
+use serde::{Deserialize, Serialize};
+
 /// Number of blocks into which an average is cut: each is far longer than any correlation time when
 /// the whole average is worth making.
 pub const BLOCKS: usize = 20;
 
 /// A mean with its standard error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The mean.
     pub mean: f64,

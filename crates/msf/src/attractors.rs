@@ -12,7 +12,7 @@ use dynamics::Estimate;
 use crate::{Isolated, StableRegion};
 
 /// One of several attractors.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Attractor {
     /// Orbits that have settled on it, of those tried.
     pub orbits: usize,

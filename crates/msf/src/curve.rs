@@ -11,7 +11,7 @@ use crate::{End, Interval, MsfError, StableRegion, origin};
 const ISOLATED_ORBITS: usize = 16;
 
 /// An oscillator with the function through which it is coupled.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Node {
     /// Dynamics F.
     pub model: Model,
@@ -20,7 +20,7 @@ pub struct Node {
 }
 
 /// What to compute.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Request {
     /// Grid of σ ≥ 0, ascending.
     pub sigma: Vec<f64>,
@@ -30,12 +30,14 @@ pub struct Request {
     pub refinement: Refinement,
     /// Seed from which all orbits' seeds follow.
     pub seed: u64,
-    /// Vector instructions to use; results do not depend on them.
+    /// Vector instructions to use; results do not depend on them, and so they are left out where a
+    /// request is written down.
+    #[serde(skip)]
     pub instruction_set: InstructionSet,
 }
 
 /// What the isolated oscillator does, by its largest Lyapunov exponent Λ(0).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Isolated {
     /// Λ(0) > 0.
     #[default]
@@ -47,7 +49,7 @@ pub enum Isolated {
 }
 
 /// The master stability function as computed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MasterStability {
     /// Grid of σ.
     pub sigma: Vec<f64>,

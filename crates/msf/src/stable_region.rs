@@ -3,7 +3,7 @@
 use crate::Zero;
 
 /// Where an interval of stable σ ends, and why there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum End {
     /// At a zero of Λ.
     Zero(Zero),
@@ -45,7 +45,7 @@ impl End {
 }
 
 /// One interval of stable σ.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Interval {
     /// Lower end. Nothing is known below it where it is [`End::Looked`].
     pub from: End,
@@ -85,7 +85,7 @@ impl Interval {
 }
 
 /// The stable set: disjoint intervals in ascending order, possibly none.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StableRegion {
     /// Disjoint, ascending.
     pub intervals: Vec<Interval>,

@@ -22,7 +22,7 @@ const CERTAIN: f64 = 4.0;
 const WINDOW: f64 = 8.0;
 
 /// A zero of Λ, where the stability of a mode changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Zero {
     /// Where Λ(σ) = 0.
     pub sigma: f64,
@@ -49,7 +49,7 @@ impl Zero {
 }
 
 /// How well a zero of Λ must be known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Refinement {
     /// Standard error of σ at which a zero is good enough, relative to σ.
     pub relative_error: f64,

@@ -8,12 +8,17 @@ use dynamics::InstructionSet;
 
 use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
+use crate::computed::Curves;
+use crate::journal::Journal;
 use crate::output::{say, tell};
 use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, list, predict, results, table};
+use crate::{check, claims, compare, findings, list, predict, results, simulated, table};
+
+/// Predicted states of an experiment beside simulation that are shown; its summary has them all.
+const STATES_SHOWN: usize = 12;
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -40,6 +45,9 @@ enum Command {
         /// Ten times shorter averages and transients: a first look, with larger errors
         #[arg(long)]
         quick: bool,
+        /// Compute all anew: take over nothing of an earlier run that was stopped before its end
+        #[arg(long)]
+        fresh: bool,
         /// Threads to use; all processors by default. Results do not depend on it
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
@@ -92,9 +100,9 @@ struct Folders {
 /// Runs a command; the result says whether everything held.
 pub fn run(cli: Cli) -> Result<bool> {
     match cli.command {
-        Command::Run { files, quick, threads, instruction_set, folders } => {
+        Command::Run { files, quick, fresh, threads, instruction_set, folders } => {
             use_threads(threads)?;
-            run_files(&files, quick, instruction_set, &folders)
+            run_files(&files, (quick, fresh), instruction_set, &folders)
         }
         Command::Predict(args) => {
             use_threads(args.threads)?;
@@ -155,7 +163,7 @@ fn instruction_set(name: &str) -> std::result::Result<InstructionSet, String> {
 /// Plans all files before running any, so that a slip in the last one shows at once.
 fn run_files(
     files: &[PathBuf],
-    quick: bool,
+    (quick, fresh): (bool, bool),
     instruction_set: Option<InstructionSet>,
     folders: &Folders,
 ) -> Result<bool> {
@@ -167,21 +175,28 @@ fn run_files(
     let reserve =
         |plan: &Plan| Place::reserve(&folders.results, &plan.id, ("run", &plan.file), quick);
     let places = plans.iter().map(reserve).collect::<Result<Vec<Place>>>()?;
-    let mut curves = findings::Curves::default();
+    let mut curves = Curves::default();
     let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
     let mut times = Vec::new();
     let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
+    let mut states: Vec<table::StateRow> = Vec::new();
     let mut written = Vec::new();
     for (plan, place) in plans.iter().zip(places) {
         let started = Instant::now();
         let planned = plan.stages.total();
         let took = || planned + started.elapsed();
-        let found = findings::find(plan, &mut curves, &plan.stages)?;
-        let claims = claims::judge(plan, &found)?;
-        let place = results::write(plan, &found, claims.clone(), took, place)?;
+        let journal = Journal::open(place.unfinished(), &plan.id, fresh)?;
+        let done = || {
+            let found = findings::find(plan, &mut curves, &journal)?;
+            let claims = claims::judge(plan, &found)?;
+            let place = results::write(plan, &found, claims.clone(), took, place)?;
+            Ok((found, claims, place))
+        };
+        let (found, claims, place) = journal.until(done)?;
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
+        states.extend(state_rows(plan, &found));
         written.push((plan.id.clone(), place));
         if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
@@ -191,6 +206,9 @@ fn run_files(
     }
     let with_claims = judged.iter().filter(|(_, claims)| !claims.is_empty());
     say!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
+    if let Some(table) = table::states(&states) {
+        say!("{table}\n");
+    }
     let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
     if let Some(table) = table::agreement(rows) {
         say!("{table}\n");
@@ -203,8 +221,12 @@ fn run_files(
         say!("{}: {}", claim.name.replace('_', " "), claim.reason);
     }
     let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
+    let undecided = match count(Verdict::CannotBeJudged) {
+        0 => String::new(),
+        undecided => format!(", {undecided} cannot be judged"),
+    };
     say!(
-        "{} claims hold, {} differ as known, {} differ; {}",
+        "{} claims hold, {} differ as known, {} differ{undecided}; {}",
         count(Verdict::Holds),
         count(Verdict::DiffersAsKnown),
         count(Verdict::Differs),
@@ -219,7 +241,23 @@ fn run_files(
         say!("left out: {problem}");
     }
     let golden = compare_all(&written, &folders.golden)?;
-    Ok(golden && count(Verdict::Differs) == 0)
+    Ok(golden && count(Verdict::Differs) + count(Verdict::CannotBeJudged) == 0)
+}
+
+/// The first predicted states with clusters, and what the sweep shows of them.
+fn state_rows(plan: &Plan, found: &findings::Findings) -> Vec<table::StateRow> {
+    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+    let states = found.cascade.iter().enumerate().filter(|_| has_pairs);
+    let row = |(at, state): (usize, &clustering::State)| {
+        let clusters = state.clusters.nontrivial();
+        if clusters.is_empty() {
+            return None;
+        }
+        let simulated::Seen { onset, end } = found.state_seen(at, &clusters)?;
+        let (id, predicted) = (plan.id.clone(), state.epsilon);
+        Some(table::StateRow { id, predicted, seen: [onset, end], runs: found.runs_in(state)? })
+    };
+    states.filter_map(row).take(STATES_SHOWN).collect()
 }
 
 /// Compares results, given by name and place, with the golden ones of the same name.

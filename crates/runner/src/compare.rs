@@ -3,6 +3,11 @@
 //! Deterministic quantities compare tightly, statistical ones within [`BANDS`] standard errors. The
 //! kernel's arithmetic is the same everywhere, so any difference at all is worth a line; the band
 //! decides whether it is a failure.
+//!
+//! The band is made of the golden standard error; the obtained one widens it only as far as it is no
+//! more than [`GROWTH`] times as large. A number that moved and whose own error is beyond that, or is
+//! more than [`HUGE`] of it, is no number to compare: it is a failure that says so, however wide its
+//! band would be. Correlations have bands of their seeds, and a least width.
 
 use std::collections::BTreeMap;
 
@@ -17,6 +22,18 @@ use crate::problem::{Problem, Result};
 const BANDS: f64 = 5.0;
 /// Relative accuracy of eigenvalues across solvers and machines.
 const EIGENVALUES: f64 = 1e-9;
+/// How much larger than the golden standard error one may be that is obtained over the same time.
+const GROWTH: f64 = 3.0;
+/// A number with a larger relative error is not known.
+const HUGE: f64 = 0.25;
+/// However much a relative error has grown, one below this is no doubt about a number.
+const MINOR: f64 = 0.01;
+/// Simulated errors below this are rounding, whatever their standard errors say.
+const ROUNDING: f64 = 1e-9;
+/// Least widths of the bands of correlations and of Rand indices, and the largest standard errors that
+/// widen them where the golden output has none.
+const CORRELATION: [f64; 2] = [0.02, 0.02];
+const RAND_INDEX: [f64; 2] = [0.05, 0.2];
 /// Most failures shown of one kind.
 const SHOWN: usize = 6;
 /// Up to this many differences of a kind that are no failures are named one by one.
@@ -139,12 +156,19 @@ impl Walk<'_> {
         let join = |name: &str, to: &str| {
             if to.is_empty() { name.to_owned() } else { format!("{to}.{name}") }
         };
-        let missing = a.keys().filter(|key| !b.contains_key(*key));
-        let added = b.keys().filter(|key| !a.contains_key(*key));
-        for (key, what) in missing.map(|k| (k, "is missing")).chain(added.map(|k| (k, "is new"))) {
+        for key in a.keys().filter(|key| !b.contains_key(*key)) {
             let kind = join(key, kind);
             if matches!(self.rule(&kind, [a, b]), Rule::Exact | Rule::Band(_)) {
-                self.fail(&kind, format!("{} {what}", join(key, path)));
+                self.fail(&kind, format!("{} is missing", join(key, path)));
+            }
+        }
+        // A golden output of before says nothing of a key; of the experiment it says everything.
+        for key in b.keys().filter(|key| !a.contains_key(*key)) {
+            let (kind, line) = (join(key, kind), format!("{} is new", join(key, path)));
+            if kind.starts_with("experiment.") {
+                self.fail(&kind, line);
+            } else if !matches!(self.rule(&kind, [a, b]), Rule::Ignore) {
+                self.note(&kind, None, line);
             }
         }
         for (key, expected) in a {
@@ -164,6 +188,9 @@ impl Walk<'_> {
         };
         let moved =
             || format!("{path}: expected {}, obtained {}", short(expected), short(obtained));
+        if let Some(why) = self.unknown(kind, [expected, obtained], siblings) {
+            return self.fail(kind, format!("{}, cannot be judged: {why}", moved()));
+        }
         match rule {
             Rule::Ignore => {}
             Rule::Note => self.note(kind, None, moved()),
@@ -175,9 +202,45 @@ impl Walk<'_> {
         }
     }
 
+    /// Why a number that moved is not known well enough to be compared.
+    fn unknown(
+        &self,
+        kind: &str,
+        [expected, obtained]: Pair,
+        siblings: Siblings,
+    ) -> Option<String> {
+        let key = error_key(kind)?;
+        let [golden, own] =
+            siblings.map(|side| side.get(key).and_then(Value::as_f64).unwrap_or(0.0));
+        // Numbers near zero, as errors near synchrony are, are known by the scale of their kind.
+        let of_kind = self.scale(kind);
+        let [golden_size, own_size] =
+            [expected, obtained].map(|x| of_kind.unwrap_or(x.as_f64().unwrap_or(0.0).abs()));
+        let has_grown = own > GROWTH * golden * self.widening() && own > MINOR * own_size;
+        // Λ(0) is zero within its error for a periodic oscillator: only growth tells.
+        let is_huge = kind != "msf.lyapunov_isolated" && own > HUGE * own_size;
+        if golden > HUGE * golden_size && kind != "msf.lyapunov_isolated" {
+            return Some(format!("the golden standard error is {golden:.2e}"));
+        }
+        (has_grown || is_huge)
+            .then(|| format!("its standard error is {own:.2e}, the golden one {golden:.2e}"))
+    }
+
+    /// What an error of a kind of quantity is large against, where it is not the quantity itself.
+    fn scale(&self, kind: &str) -> Option<f64> {
+        let list = kind.strip_prefix("simulations[].")?.strip_suffix("[].mean")?;
+        let simulations = self.expected["simulations"].as_array()?.iter();
+        let errors = simulations.filter_map(|s| s[list].as_array()).flatten();
+        Some(errors.filter_map(|error| error["mean"].as_f64()).fold(0.0, f64::max))
+    }
+
     /// The rule for a kind of quantity, with bands from the standard errors beside it.
     fn rule(&self, kind: &str, siblings: Siblings) -> Rule {
         let band = |error: &str| Rule::Band(BANDS * self.joint_error(siblings, error));
+        let of_seeds = |error: &str, [least, most]: [f64; 2]| {
+            let error = self.seeds_error(siblings, error, most);
+            Rule::Band(least.max(BANDS * error) * self.widening())
+        };
         match kind {
             "eigenvalues[]" => Rule::Band(EIGENVALUES * self.largest_eigenvalue()),
             "critical_couplings[].lambda" => Rule::Band(EIGENVALUES * self.largest_eigenvalue()),
@@ -188,11 +251,23 @@ impl Walk<'_> {
             "msf.stable[][]" => Rule::Band(BANDS * self.largest_zero_error()),
             "cascade[].epsilon[]" => Rule::Band(BANDS * self.largest_coupling_error()),
             _ if is_onset(kind) => {
-                let spread = BANDS * self.joint_error(siblings, "spread");
-                Rule::Band(spread + 2.0 * self.widest_step())
+                let step = self.widest_step();
+                Rule::Band(BANDS * self.joint_spread(siblings, step) + 2.0 * step)
             }
             "simulations[].error_to_reference[].mean"
-            | "simulations[].error_within_clusters[].mean" => band("standard_error"),
+            | "simulations[].error_within_clusters[].mean" => {
+                Rule::Band(ROUNDING.max(BANDS * self.joint_error(siblings, "standard_error")))
+            }
+            "simulations[].agreement.pearson" => of_seeds("pearson_standard_error", CORRELATION),
+            "simulations[].agreement.spearman" => of_seeds("spearman_standard_error", CORRELATION),
+            "simulations[].agreement.adjusted_rand_index" => {
+                of_seeds("adjusted_rand_index_standard_error", RAND_INDEX)
+            }
+            // Few and short runs, for warnings only.
+            _ if kind.starts_with("simulations_step_effect") => Rule::Note,
+            // Of an onset its mean is judged.
+            _ if kind.starts_with("cascade[].simulated_onset.") => Rule::Note,
+            _ if kind.starts_with("cascade[].simulated_end") => Rule::Note,
             _ if kind.starts_with("provenance") || kind.starts_with("spectrum.largest") => {
                 Rule::Ignore
             }
@@ -230,10 +305,27 @@ impl Walk<'_> {
     }
 
     /// Standard errors of both sides added in squares, the expected one widened when the obtained run
-    /// was shortened: its averages are over less time than the golden ones.
+    /// was shortened: its averages are over less time than the golden ones. The obtained one counts as
+    /// far as the golden one lets it.
     fn joint_error(&self, [expected, obtained]: Siblings, key: &str) -> f64 {
         let of = |side: &Map<String, Value>| side.get(key).and_then(Value::as_f64).unwrap_or(0.0);
-        (of(expected) * self.widening()).hypot(of(obtained))
+        let golden = of(expected) * self.widening();
+        golden.hypot(of(obtained).min(GROWTH * golden))
+    }
+
+    /// Spreads of an onset over seeds on both sides; none is known better than to a step.
+    fn joint_spread(&self, [expected, obtained]: Siblings, step: f64) -> f64 {
+        let of =
+            |side: &Map<String, Value>| side.get("spread").and_then(Value::as_f64).unwrap_or(0.0);
+        let golden = of(expected) * self.widening();
+        golden.hypot(of(obtained).min(GROWTH * golden.max(step)))
+    }
+
+    /// How far a number depends on the seeds: as the golden output says or, where it does not, as the
+    /// obtained one does, up to a size.
+    fn seeds_error(&self, [expected, obtained]: Siblings, key: &str, most: f64) -> f64 {
+        let of = |side: &Map<String, Value>| side.get(key).and_then(Value::as_f64);
+        of(expected).unwrap_or_else(|| of(obtained).unwrap_or(0.0).min(most))
     }
 
     fn widening(&self) -> f64 {
@@ -296,6 +388,19 @@ impl Walk<'_> {
         if notes.first.len() < NAMED {
             notes.first.push(line);
         }
+    }
+}
+
+/// Where the standard error of a statistical quantity stands beside it.
+fn error_key(kind: &str) -> Option<&'static str> {
+    match kind {
+        "msf.lyapunov_isolated" => Some("lyapunov_isolated_standard_error"),
+        "msf.sigma_c"
+        | "msf.zeros[].sigma"
+        | "critical_couplings[].epsilon"
+        | "simulations[].error_to_reference[].mean"
+        | "simulations[].error_within_clusters[].mean" => Some("standard_error"),
+        _ => None,
     }
 }
 
@@ -403,5 +508,88 @@ mod tests {
         };
         assert!(!error(1.5, 1.0));
         assert!(error(1.5, 10.0));
+    }
+
+    #[test]
+    fn a_number_whose_own_error_is_huge_is_not_equal_to_anything() {
+        let zero = |sigma: f64, error: f64| {
+            after(|s| {
+                s["msf"]["sigma_c"] = json!(sigma);
+                s["msf"]["standard_error"] = json!(error);
+            })
+        };
+        assert!(zero(8.171, 0.006).holds());
+        // 125 ± 125 is within one of its standard errors of everything.
+        for (sigma, error) in [(125.0, 125.0), (8.18, 125.0), (8.18, 1.0)] {
+            let comparison = zero(sigma, error);
+            assert!(!comparison.holds(), "{sigma} ± {error}");
+            let cannot = comparison.lines().iter().any(|line| line.contains("cannot be judged"));
+            assert!(cannot, "{:?}", comparison.lines());
+        }
+    }
+
+    #[test]
+    fn a_zero_that_could_not_be_refined_equals_no_other() {
+        let comparison = after(|s| {
+            s["msf"]["zeros"][0] =
+                json!({ "sigma": 8.171, "standard_error": 0.004, "refined": false });
+        });
+        assert!(!comparison.holds());
+        let said = comparison.lines().iter().any(|line| line.contains("could not be refined"));
+        assert!(said, "{:?}", comparison.lines());
+    }
+
+    #[test]
+    fn a_golden_number_that_is_not_known_judges_nothing() {
+        let mut golden = summary();
+        golden["msf"]["sigma_c"] = json!(125.0);
+        golden["msf"]["standard_error"] = json!(125.0);
+        assert!(!compare_summaries(&golden, &summary()).holds());
+    }
+
+    #[test]
+    fn an_error_near_synchrony_is_judged_by_the_golden_band_alone() {
+        let expected = |mean: f64, error: f64| {
+            let mut summary = summary();
+            let weaker = json!({ "epsilon": 2.0, "error_within_clusters": [{ "mean": mean, "standard_error": error }] });
+            summary["simulations"].as_array_mut().unwrap().push(weaker);
+            summary
+        };
+        let holds = |golden: (f64, f64), own: (f64, f64)| {
+            compare_summaries(&expected(golden.0, golden.1), &expected(own.0, own.1)).holds()
+        };
+        assert!(holds((0.01, 0.01), (0.03, 0.02)), "bursts");
+        assert!(!holds((0.01, 0.01), (5.0, 5.0)), "an error of its own that takes in everything");
+        assert!(holds((1e-13, 1e-15), (3e-13, 1e-13)), "rounding");
+    }
+
+    #[test]
+    fn correlations_are_judged_within_the_band_of_their_seeds() {
+        let with = |pearson: f64, rand_index: f64, error: Option<f64>| {
+            let mut summary = summary();
+            summary["simulations"][0]["agreement"] =
+                json!({ "pearson": pearson, "adjusted_rand_index": rand_index });
+            if let Some(error) = error {
+                summary["simulations"][0]["agreement"]["pearson_standard_error"] = json!(error);
+            }
+            summary
+        };
+        let golden = with(0.8, 1.0, None);
+        assert!(compare_summaries(&golden, &with(0.81, 0.98, None)).holds());
+        assert!(!compare_summaries(&golden, &with(0.7, 1.0, None)).holds());
+        assert!(!compare_summaries(&golden, &with(0.8, 0.0, None)).holds());
+        // Without an error in the golden output the obtained one widens the band a little only.
+        assert!(compare_summaries(&golden, &with(0.75, 1.0, Some(0.5))).holds());
+        assert!(!compare_summaries(&golden, &with(0.2, 1.0, Some(0.5))).holds());
+        let golden = with(0.8, 1.0, Some(0.04));
+        assert!(compare_summaries(&golden, &with(0.65, 1.0, Some(0.04))).holds());
+    }
+
+    #[test]
+    fn a_new_key_is_mentioned_and_a_new_parameter_is_a_failure() {
+        let comparison = after(|s| s["simulations"][0]["n_seeds"] = json!(4));
+        assert!(comparison.holds());
+        assert_eq!(comparison.lines(), ["simulations[0].n_seeds is new: not judged"]);
+        assert!(!after(|s| s["experiment"]["sweep"]["kick"] = json!(0.0)).holds());
     }
 }

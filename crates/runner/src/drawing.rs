@@ -7,7 +7,7 @@ mod pairs;
 mod picture;
 mod room;
 
-pub use pairs::error_matrix;
+pub use pairs::{distance, error_matrix};
 pub use picture::picture;
 pub use room::foreseen;
 
@@ -194,6 +194,36 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
             .into_iter()
             .filter(|group| !group.markers.is_empty())
             .collect(),
+        ..escapes(simulated)
+    }
+}
+
+/// The ranges of ε in which runs came to no end, shaded, each as far as halfway to its neighbours.
+fn escapes(simulated: &Simulated) -> LinePanel {
+    let (epsilon, n_runs) = (&simulated.epsilon, simulated.seeds.len());
+    let lost: Vec<usize> = (0..epsilon.len()).map(|at| simulated.broken_off(at)).collect();
+    let halfway = |at: usize, next: usize| 0.5 * (epsilon[at] + epsilon[next]);
+    let (mut shaded, last): (Vec<[f64; 2]>, _) = (Vec::new(), epsilon.len() - 1);
+    for at in (0..=last).filter(|&at| lost[at] > 0) {
+        let (from, to) = (halfway(at.saturating_sub(1), at), halfway(at, (at + 1).min(last)));
+        match shaded.last_mut() {
+            Some(before) if before[1] == from => before[1] = to,
+            _ => shaded.push([from, to]),
+        }
+    }
+    let some: Vec<usize> = lost.into_iter().filter(|&count| count > 0).collect();
+    let count = match (some.iter().min(), some.iter().max()) {
+        (Some(least), Some(most)) if least == most => format!("{least} of {n_runs}"),
+        (Some(least), Some(most)) => format!("{least} to {most} of {n_runs}"),
+        _ => String::new(),
+    };
+    LinePanel {
+        shaded_label: if shaded.is_empty() {
+            Label::default()
+        } else {
+            Label::text(format!("{count} runs {}", simulated.broke_off()))
+        },
+        shaded,
         ..LinePanel::default()
     }
 }

@@ -4,19 +4,22 @@ use clustering::{
     CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
     merge_equal_clusters,
 };
-use dynamics::DynamicsError;
 use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
 use crate::agreement::{self, Agreement};
 use crate::check;
-use crate::plan::{Plan, Sweep};
+use crate::computed::{self, Curves};
+use crate::doubts;
+use crate::journal::{Held, Journal};
+use crate::plan::Plan;
 use crate::prediction::Known;
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
-use crate::simulated::Simulated;
+use crate::simulated::{Seen, Simulated};
 use crate::stability;
+use crate::step_effect::StepEffect;
 use crate::synchrony::{Evidence, Synchrony};
 use crate::warning::{Warning, Warnings};
 
@@ -41,57 +44,32 @@ pub struct Findings {
     /// The same states as trees, labelled: one for each run of states in which clusters only split.
     pub trees: Vec<CascadeTree>,
     pub simulated: Option<Simulated>,
+    /// What the step of the integrator does to the errors of the sweep, at some of its couplings.
+    pub step_effects: Vec<StepEffect>,
     /// At every ε of the sweep; empty without one, or without all pairs.
     pub agreement: Vec<Agreement>,
+    /// What of this an earlier run had computed.
+    pub taken: Held,
     /// What must be known beside these numbers, in the order in which it came up.
     pub warnings: Vec<Warning>,
 }
 
-/// The master stability functions computed so far: experiments that ask for the same one share it.
-#[derive(Default)]
-pub struct Curves(Vec<(msf::Node, msf::Request, MasterStability)>);
-
-impl Curves {
-    /// The curve of a plan, computed unless an earlier plan had the same node and request.
-    fn of(&mut self, plan: &Plan, stages: &Stages) -> Result<MasterStability> {
-        let same = |known: &&(msf::Node, msf::Request, MasterStability)| {
-            known.0 == plan.node && known.1 == plan.msf
-        };
-        if let Some((_, _, curve)) = self.0.iter().find(same) {
-            return Ok(curve.clone());
-        }
-        let compute = |progress: dynamics::Progress<'_>| {
-            msf::master_stability(&plan.node, &plan.msf, progress)
-        };
-        let curve = stages
-            .measured("msf", plan.msf_steps(), compute)
-            .map_err(|error| msf_problem(plan, &error))?;
-        refuse_overflow(plan, &curve)?;
-        self.0.push((plan.node, plan.msf.clone(), curve.clone()));
-        Ok(curve)
-    }
-}
-
 /// Runs a plan: MSF, spectrum, prediction, simulation.
-pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Findings> {
-    let failed = |what: &str, error: &dyn std::fmt::Display| {
-        Problem::from_error(what, error).in_file(&plan.file)
-    };
+pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findings> {
+    let stages = &plan.stages;
     let mut warnings = Warnings::new(&plan.id);
     check::warn(plan, &mut warnings);
     plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
-    let msf = curves.of(plan, stages)?;
+    let msf = curves.of(plan, journal)?;
+    doubts::warn_of_short_times(plan, &mut warnings);
     stability::warn(plan, &msf, &mut warnings);
     let stable = &msf.stable;
     let n_nodes = plan.network.n_nodes();
     let request = plan.spectrum.request(stable, n_nodes);
-    let spectrum = stages
-        .told("spectrum", |tell| {
-            spectra::leading_modes_with(&plan.matrix, &request, &|advance| tell(&advanced(advance)))
-        })
-        .map_err(|error| failed("the spectrum could not be computed", &error))?;
+    let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
-    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
+    // Zero modes are zero exactly, and no others are.
+    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
     let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
@@ -107,9 +85,18 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         })
         .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
-        Some(sweep) => Some(simulate(plan, sweep, stages)?),
-        None => None,
+        Some(sweep) => Some(computed::simulate(plan, sweep, journal, &mut warnings)?),
+        None => {
+            journal.tell_taken();
+            None
+        }
     };
+    let mut step_effects = Vec::new();
+    if let (Some(sweep), Some(simulated)) = (&plan.sweep, &simulated) {
+        doubts::warn_of_runs(&msf, simulated, &mut warnings);
+        step_effects = computed::effects_of_step(plan, sweep, simulated, journal)?;
+        step_effects.iter().for_each(|effect| effect.warn(&mut warnings));
+    }
     let agreement = match &simulated {
         Some(simulated) => stages
             .unmeasured("agreement", || agreement::at_all(plan, &spectrum, &states, simulated))?,
@@ -124,12 +111,14 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         looked_to: msf.sigma[msf.sigma.len() - 1],
     });
     let cascade = merge_equal_clusters(&states);
-    let labels = labels(plan, &spectrum, &cascade, &states, stages)
-        .map_err(|error| failed("the clusters cannot be labelled", &error))?;
+    let labels = labels(plan, &spectrum, &cascade, &states, stages).map_err(|error| {
+        Problem::from_error("the clusters cannot be labelled", error).in_file(&plan.file)
+    })?;
     drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
     let warnings = warnings.into_list();
+    let taken = journal.taken();
     Ok(Findings {
         cascade,
         labels,
@@ -139,7 +128,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, stages: &Stages) -> Result<Finding
         critical,
         synchrony,
         simulated,
+        step_effects,
         agreement,
+        taken,
         warnings,
     })
 }
@@ -177,11 +168,6 @@ fn beyond(plan: &Plan, computed: usize, top: f64) -> String {
     )
 }
 
-fn advanced(advance: spectra::Advance) -> String {
-    let spectra::Advance { products, converged, wanted } = advance;
-    format!("{converged} of {wanted} modes found, {products} matrix-vector products")
-}
-
 fn unpredictable(plan: &Plan, error: &ClusteringError) -> Problem {
     let problem =
         Problem::from_error("the cascade could not be predicted", error).in_file(&plan.file);
@@ -215,64 +201,68 @@ fn labels(
     })
 }
 
-fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {
-    let what = "the master stability function could not be computed";
-    let problem = Problem::from_error(what, error).in_file(&plan.file);
-    if !matches!(error, msf::MsfError::Dynamics(DynamicsError::Escaped { .. })) {
-        return problem;
-    }
-    problem.hint(format!(
-        "either the parameters of [oscillator.{}] leave it no bounded attractor, or `msf.step` is \
-         too long for it",
-        plan.node.model.name()
-    ))
-}
-
-/// A perturbation may grow beyond all numbers between two renormalisations.
-fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
-    let Some(at) = msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) else {
-        return Ok(());
-    };
-    let message = format!(
-        "reaches {}, where perturbations grow beyond all numbers between two renormalisations",
-        plain(msf.sigma[at])
-    );
-    let hint = "end the grid earlier, or shorten `msf.renormalise` and `msf.step`";
-    Err(Problem::with_key(&plan.file, "msf.sigma", message).hint(hint))
-}
-
-fn simulate(plan: &Plan, sweep: &Sweep, stages: &Stages) -> Result<Simulated> {
-    let simulation = dynamics::Simulation {
-        model: plan.node.model,
-        coupling: plan.node.coupling,
-        matrix: plan.matrix.matrix(),
-        method: sweep.method,
-        schedule: sweep.schedule,
-        observables: sweep.observables.clone(),
-        kick: sweep.kick,
-        instruction_set: plan.msf.instruction_set,
-    };
-    let runs = stages
-        .measured("sweep", sweep.steps(), |progress| simulation.run(&sweep.replicas(), progress))
-        .map_err(|error| {
-            Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
-        })?;
-    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
-}
-
 impl Findings {
     /// The clusters predicted at a coupling strength; none where the prediction does not reach.
     pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
         self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
     }
 
-    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never do.
+    /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never are
+    /// or never cease to be.
     pub fn predicted_loss(&self, cluster: &[usize]) -> Option<f64> {
-        let together = |state: &State| {
-            let of = state.clusters.cluster_of();
-            cluster.iter().all(|&node| of[node] == of[cluster[0]])
-        };
-        let lost = self.cascade.iter().find(|state| !together(state))?;
-        Some(lost.epsilon.1.unwrap_or(f64::INFINITY))
+        let is_together = |state: &&State| together(state, cluster);
+        let lost = self
+            .cascade
+            .iter()
+            .skip_while(|state| !is_together(state))
+            .find(|s| !is_together(s))?;
+        lost.epsilon.1
     }
+
+    /// Where these clusters were seen in the sweep: looked for at the strongest couplings at which
+    /// they are predicted and of which the sweep has a point, or anywhere if there are none. None
+    /// without a sweep.
+    pub fn seen(&self, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let simulated = self.simulated.as_ref()?;
+        let holds = |state: &State| clusters.iter().all(|cluster| together(state, cluster));
+        let runs = self.cascade.chunk_by(|a, b| holds(a) == holds(b));
+        let ranges = runs.filter(|run| holds(&run[0])).map(range_of);
+        let has_point = |range: &(f64, Option<f64>)| {
+            simulated
+                .epsilon
+                .iter()
+                .any(|&epsilon| epsilon > range.0 && range.1.is_none_or(|to| epsilon <= to))
+        };
+        Some(simulated.seen(clusters, ranges.into_iter().find(has_point)))
+    }
+
+    /// How many runs of the sweep lie in the range of a state, and how many of these escaped; none
+    /// without a sweep.
+    pub fn runs_in(&self, state: &State) -> Option<[usize; 2]> {
+        let simulated = self.simulated.as_ref()?;
+        let inside = |at: &usize| state.holds_at(simulated.epsilon[*at]);
+        let positions: Vec<usize> = (0..simulated.epsilon.len()).filter(inside).collect();
+        let escaped = positions.iter().map(|&at| simulated.escaped(at)).sum();
+        Some([positions.len() * simulated.seeds.len(), escaped])
+    }
+
+    /// Where the clusters of one predicted state were seen in the sweep: looked for in its range and
+    /// above, as far as the states there hold them too.
+    pub fn state_seen(&self, state: usize, clusters: &[Vec<usize>]) -> Option<Seen> {
+        let holds = |state: &&State| clusters.iter().all(|cluster| together(state, cluster));
+        let above = self.cascade[..state].iter().rev().take_while(holds).count();
+        let range = range_of(&self.cascade[state - above..=state]);
+        Some(self.simulated.as_ref()?.seen(clusters, Some(range)))
+    }
+}
+
+/// Whether a state has these nodes in one cluster.
+fn together(state: &State, cluster: &[usize]) -> bool {
+    let of = state.clusters.cluster_of();
+    cluster.iter().all(|&node| of[node] == of[cluster[0]])
+}
+
+/// The range of ε of neighbouring states, from strong coupling down.
+fn range_of(states: &[State]) -> (f64, Option<f64>) {
+    (states[states.len() - 1].epsilon.0, states[0].epsilon.1)
 }

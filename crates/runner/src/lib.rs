@@ -11,10 +11,13 @@ mod check;
 mod claims;
 mod cli;
 mod compare;
+mod computed;
+mod doubts;
 mod drawing;
 mod figures;
 mod files;
 mod findings;
+mod journal;
 mod list;
 mod load;
 mod machine;
@@ -29,9 +32,11 @@ mod progress;
 mod provenance;
 mod record;
 mod results;
+mod signals;
 mod simulated;
 mod spec;
 mod stability;
+mod step_effect;
 mod synchrony;
 mod table;
 mod trial;
@@ -48,8 +53,9 @@ use crate::output::{say, tell};
 pub fn main() -> ExitCode {
     // A panic is a fault of ours; said like all else, so that it cannot fail for want of a terminal.
     std::panic::set_hook(Box::new(|panic| tell!("error: a fault of eigensync: {panic}")));
+    let run = |cli| signals::watch().and_then(|()| cli::run(cli));
     let status = match cli::Cli::try_parse() {
-        Ok(cli) => match cli::run(cli) {
+        Ok(cli) => match run(cli) {
             Ok(true) => 0,
             Ok(false) => 1,
             Err(problem) => {

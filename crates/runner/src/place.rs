@@ -73,14 +73,15 @@ impl Place {
         })?;
         place.lock = Some(lock);
         exchange::try_out(&hidden).map_err(failed)?;
-        let in_place = place.settle()?;
+        let (in_place, cleared) = place.settle()?;
+        cleared?;
+        carry::check(&in_place)?;
         leftovers::of_version_0_1_0(results, id, &in_place)?;
         leftovers::of_dead_runs(results);
         Ok(place)
     }
 
     /// The hidden folder, for what a later run of the same experiment goes on from.
-    #[allow(dead_code, reason = "the journal will be kept here")]
     pub fn unfinished(&self) -> &Path {
         self.lock.as_ref().map_or(&self.results, Lock::folder)
     }
@@ -108,10 +109,11 @@ impl Place {
         manifest::seal(&making).map_err(failed)?;
         fs::rename(&making, hidden.join(WHOLE)).map_err(failed)?;
         exchange::flush(&hidden).map_err(failed)?;
-        let place = self.settle()?;
-        let whole = [WHOLE, REPLACED].iter().all(|name| !hidden.join(name).exists());
-        if let Some(lock) = self.lock.take().filter(|_| whole) {
-            lock.remove();
+        let (place, cleared) = self.settle()?;
+        match cleared {
+            Ok(()) => self.lock.take().into_iter().for_each(Lock::remove),
+            // No reason to call the new results failed; the next run tries it again.
+            Err(problem) => tell!("warning: {}: {problem}", self.id),
         }
         if !self.quick {
             leftovers::remove_dead(&name::hidden(&self.results, &self.id, true));
@@ -141,8 +143,9 @@ impl Place {
     }
 
     /// Puts what is whole in place and clears away what it replaced: the end of a run, and the first
-    /// thing that the next one does where it was killed in the middle of that.
-    fn settle(&self) -> Result<PathBuf> {
+    /// thing that the next one does where it was killed in the middle of that. Gives the place, and
+    /// whether the older results could be cleared away.
+    fn settle(&self) -> Result<(PathBuf, Result<()>)> {
         let [whole, replaced] = [WHOLE, REPLACED].map(|name| self.unfinished().join(name));
         let (place, there) = self.target()?;
         let failed = |error: std::io::Error| {
@@ -164,26 +167,20 @@ impl Place {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => return self.settle(),
             placed => placed.map_err(failed)?,
         }
-        for older in [whole, replaced] {
-            if older.exists() {
-                self.retire(&older, &place);
-            }
-        }
         clear(&self.unfinished().join(FILES))
-            .map_err(|e| unwritable(&self.results, &self.id, &e))?;
-        Ok(place)
-    }
-
-    /// Clears older results away when all that is a user's in them has come along. What cannot be
-    /// cleared away is no reason to call the new results failed.
-    fn retire(&self, older: &Path, place: &Path) {
-        if let Err(error) = carry::move_rest(older, place) {
-            tell!(
-                "warning: {}: older results in {} cannot be cleared away: {error}",
-                self.id,
-                older.display()
-            );
-        }
+            .map_err(|error| unwritable(&self.results, &self.id, &error))?;
+        let mut older = [whole, replaced].into_iter().filter(|older| older.exists());
+        let cleared = older.try_for_each(|older| {
+            carry::move_rest(&older, &place).map_err(|error| {
+                let hint = format!(
+                    "what is yours in it belongs to {}: move it there, and remove the folder",
+                    place.display()
+                );
+                let message = "older results cannot be cleared away";
+                Problem::from_error(message, error).in_file(&older).hint(hint)
+            })
+        });
+        Ok((place, cleared))
     }
 }
 

@@ -54,6 +54,8 @@ pub struct Plan {
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     pub network: Network,
+    /// SHA-256 of its links and weights.
+    pub links_hash: String,
     /// Number of connected components.
     pub n_components: usize,
     /// What each step of preparation did.
@@ -156,9 +158,10 @@ fn of(
         Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
     checker.effects()?;
     let (network, preparation) = checker.network()?;
-    let (n_components, matrix) = stages.unmeasured("preparation", || {
+    let (n_components, matrix, links_hash) = stages.unmeasured("preparation", || {
         let n_components = network.components().len();
-        (n_components, CouplingMatrix::new(&network, checker.normalization()))
+        let matrix = CouplingMatrix::new(&network, checker.normalization());
+        (n_components, matrix, links_hash(&network))
     });
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
@@ -172,6 +175,7 @@ fn of(
         kept: None,
         shortened,
         network,
+        links_hash,
         n_components,
         preparation,
         matrix,
@@ -185,7 +189,7 @@ fn of(
     checker.regions(&plan.network)?;
     checker.figure(&plan.network, &plan.spectrum)?;
     checker.claims(&plan)?;
-    Memory::of(&plan).affordable().map_err(|problem| problem.in_file(file))?;
+    Memory::of(&plan).affordable(file)?;
     Ok(Plan { stages, ..plan })
 }
 

@@ -10,6 +10,8 @@ use dynamics::Model;
 use dynamics::lyapunov::Times;
 use toml::{Table, Value, toml};
 
+use crate::computed::{self, Curves};
+use crate::journal::Journal;
 use crate::output::say;
 use crate::place::{self, Place};
 use crate::plan::{self, Plan};
@@ -69,6 +71,9 @@ pub struct Args {
     /// Shorter averages for the master stability function: a first look
     #[arg(long)]
     quick: bool,
+    /// Compute all anew: take over nothing of an earlier run that was stopped before its end
+    #[arg(long)]
+    fresh: bool,
     /// Folder that holds the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
@@ -84,27 +89,40 @@ pub fn run(args: &Args) -> Result<()> {
     let file = args.network.with_extension("toml");
     let id = place::id(&args.network)?;
     let stages = Stages::new(&id);
-    let mut document = experiment(args)?;
+    let document = experiment(args)?;
     let made_from = ("predict", &*args.network);
     let place = Place::reserve(&args.results, &id, made_from, args.quick)?;
-    let sigma = table([
-        ("from", 0.0.into()),
-        ("to", reach(args, &stages)?.into()),
-        ("points", SIGMA_POINTS.into()),
-    ]);
-    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
-    let of_network = |problem: Problem| problem.renamed(&file, &args.network);
-    let mut plan =
-        plan::of_text(&text(&document)?, &file, args.quick, stages).map_err(of_network)?;
-    keep(&mut plan, document, &place.origin().file)?;
-    let found = findings::find(&plan, &mut findings::Curves::default(), &plan.stages)
-        .map_err(of_network)?;
-    let took = || started.elapsed();
-    let place = results::write(&plan, &found, Vec::new(), took, place)?;
+    let journal = Journal::open(place.unfinished(), &id, args.fresh)?;
+    let (plan, found, place) = journal.until(|| {
+        let plan = plan(args, document, &file, (&place, stages, &journal))?;
+        let found = findings::find(&plan, &mut Curves::default(), &journal)
+            .map_err(|problem| problem.renamed(&file, &args.network))?;
+        let place = results::write(&plan, &found, Vec::new(), || started.elapsed(), place)?;
+        Ok((plan, found, place))
+    })?;
     say!("{}", overview::of(&plan, &found).trim_end());
     say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
     say!("the same as an experiment file: {}", place.join(results::EXPERIMENT).display());
     Ok(())
+}
+
+/// The plan of the experiment file, with the curve's reach, which takes a first look at Λ.
+fn plan(
+    args: &Args,
+    mut document: Table,
+    file: &Path,
+    (place, stages, journal): (&Place, Stages, &Journal),
+) -> Result<Plan> {
+    let sigma = table([
+        ("from", 0.0.into()),
+        ("to", reach(args, &stages, journal)?.into()),
+        ("points", SIGMA_POINTS.into()),
+    ]);
+    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
+    let mut plan = plan::of_text(&text(&document)?, file, args.quick, stages)
+        .map_err(|problem| problem.renamed(file, &args.network))?;
+    keep(&mut plan, document, &place.origin().file)?;
+    Ok(plan)
 }
 
 /// A number of modes, or the word for one.
@@ -261,12 +279,10 @@ fn coupling(model: Model, (from, to): (&str, &str)) -> Result<dynamics::Coupling
 }
 
 /// How far the curve of Λ must reach.
-fn reach(args: &Args, stages: &Stages) -> Result<f64> {
+fn reach(args: &Args, stages: &Stages, journal: &Journal) -> Result<f64> {
     let (_, model) = oscillator(&args.oscillator)?;
     let node = msf::Node { model, coupling: coupling(model, components_coupled(args)?)? };
-    let look = |progress: dynamics::Progress<'_>| msf::reach(&node, &FIRST_LOOK, 1, progress);
-    stages
-        .measured("first look at the msf", 16 * FIRST_LOOK.steps(), look)
+    computed::reach(&node, &FIRST_LOOK, stages, journal)
         .map_err(|error| Problem::from_error("the master stability function", error))
 }
 

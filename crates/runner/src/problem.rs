@@ -10,6 +10,8 @@ pub struct Problem {
     place: Option<String>,
     message: String,
     hint: Option<String>,
+    /// What was computed before, and is not lost.
+    kept: Option<String>,
     /// Whether it only leaves an experiment out: its data may not be shipped and are not here.
     left_out: bool,
 }
@@ -19,7 +21,7 @@ pub type Result<T> = std::result::Result<T, Problem>;
 
 impl Problem {
     pub fn new(message: impl Into<String>) -> Self {
-        Self { place: None, message: message.into(), hint: None, left_out: false }
+        Self { place: None, message: message.into(), hint: None, kept: None, left_out: false }
     }
 
     /// A problem with one key of an experiment file.
@@ -65,6 +67,13 @@ impl Problem {
         self.left_out
     }
 
+    /// Says what was computed before and is not lost.
+    #[must_use]
+    pub fn kept(mut self, kept: impl Into<String>) -> Self {
+        self.kept = Some(kept.into());
+        self
+    }
+
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
@@ -80,6 +89,9 @@ impl fmt::Display for Problem {
         f.write_str(&self.message)?;
         if let Some(hint) = &self.hint {
             write!(f, "\n\nhint: {hint}")?;
+        }
+        if let Some(kept) = &self.kept {
+            write!(f, "\n\n{kept}")?;
         }
         Ok(())
     }

@@ -3,11 +3,22 @@
 
 use std::cell::RefCell;
 use std::io::{Read, Seek, SeekFrom};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::output::printable;
+
+/// The bar on the terminal, for whoever has to clear it from another thread.
+static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// Clears the line of the bar, if there is one.
+pub fn clear() {
+    if let Some(bar) = SHOWN.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        bar.finish_and_clear();
+    }
+}
 
 /// Shows the stages of one experiment.
 #[derive(Default)]
@@ -54,8 +65,21 @@ impl Stages {
         steps: u64,
         work: impl FnOnce(dynamics::Progress<'_>) -> T,
     ) -> T {
+        self.resumed(stage, steps, 0, work)
+    }
+
+    /// The same where some of the steps were done by an earlier run.
+    pub fn resumed<T>(
+        &self,
+        stage: &str,
+        steps: u64,
+        done: u64,
+        work: impl FnOnce(dynamics::Progress<'_>) -> T,
+    ) -> T {
         let template = "{prefix} [{bar:30}] {percent:>3} %  {elapsed} so far, about {eta} left";
         let bar = self.bar(stage, template, Some(steps));
+        bar.set_position(done);
+        bar.reset_eta();
         let report = |done| {
             // A stage that turns out longer than planned stretches its bar.
             if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
@@ -86,6 +110,7 @@ impl Stages {
         bar.set_style(style.progress_chars("=> "));
         bar.set_prefix(format!("{} {stage}", printable(&self.id)));
         bar.enable_steady_tick(Duration::from_millis(200));
+        *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
         bar
     }
 }

@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 
 use graph::Network;
 
+use crate::journal::Held;
 use crate::place::Origin;
 use crate::plan::Plan;
 
@@ -31,6 +32,8 @@ pub struct Provenance {
     /// Those that were used.
     pub instruction_set: &'static str,
     pub threads: usize,
+    /// What an earlier run had computed, which ended before its results were written.
+    pub taken_over: Held,
     pub wall_time_s: f64,
     /// Of this, what each stage took.
     pub stages_s: IndexMap<String, f64>,
@@ -40,10 +43,10 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Of a run that took so long in all and in its stages.
+    /// Of a run that took so long in all and in its stages, and had so much computed by an earlier one.
     pub fn new(
         plan: &Plan,
-        links_hash: &str,
+        taken_over: Held,
         (took, stages): (Duration, &[(String, Duration)]),
         origin: &Origin,
     ) -> Self {
@@ -53,10 +56,11 @@ impl Provenance {
             commit: env!("EIGENSYNC_COMMIT"),
             origin: origin.clone(),
             seed: plan.experiment.seed,
-            plan_hash: plan_hash(&plan.written, plan.shortened, links_hash),
+            plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),
             host_features: host_features(),
             instruction_set: plan.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
+            taken_over,
             wall_time_s: seconds(took),
             stages_s: stages.iter().map(|(name, time)| (name.clone(), seconds(*time))).collect(),
             peak_memory_bytes: peak_memory(),

@@ -5,19 +5,21 @@ mod states;
 
 use std::time::Duration;
 
+use dynamics::{Outcome, Run};
 use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::agreement::Agreement;
+use crate::agreement::{Agreement, Predicted};
 use crate::claims::{Claim, labelled};
 use crate::findings::Findings;
 use crate::place::Origin;
 use crate::plan::Plan;
-use crate::provenance::{Provenance, links_hash};
-use crate::simulated::{OverSeeds, completed};
+use crate::provenance::Provenance;
+use crate::simulated::OverSeeds;
 use crate::spec::StepSpec;
 use crate::stability::word;
+use crate::step_effect::StepEffect;
 use crate::synchrony::Synchrony;
 use crate::warning::Warning;
 
@@ -50,6 +52,8 @@ pub struct Summary {
     pub global_synchrony: Synchrony,
     pub cascade: Vec<StateRecord>,
     pub simulations: Vec<SimulationRecord>,
+    /// What the step of the integrator does to their errors.
+    pub simulations_step_effect: Vec<StepEffect>,
     pub claims: Vec<Claim>,
     /// What must be known beside these numbers.
     pub warnings: Vec<Warning>,
@@ -199,8 +203,10 @@ pub struct CriticalRecord {
 #[derive(Serialize)]
 pub struct SimulationRecord {
     pub epsilon: f64,
-    /// `completed`, `escaped`, or both counted.
+    /// `completed`, `escaped`, `failed` (the adaptive integrator gave up), or how many did.
     pub outcome: String,
+    /// Runs that stayed bounded: clusters and agreement are of means over these.
+    pub n_seeds: usize,
     /// Simulated clusters of two nodes or more.
     pub clusters: Option<Vec<Vec<String>>>,
     /// Prediction against simulation, where all pairs were observed and a mode is unstable.
@@ -223,6 +229,10 @@ pub struct AgreementRecord {
     pub spearman: Option<f64>,
     /// Adjusted Rand index of predicted and simulated clusters.
     pub adjusted_rand_index: Option<f64>,
+    /// How far these depend on the seeds, by the jackknife; none with fewer than two.
+    pub pearson_standard_error: Option<f64>,
+    pub spearman_standard_error: Option<f64>,
+    pub adjusted_rand_index_standard_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regions: Option<RegionRecord>,
 }
@@ -248,7 +258,6 @@ pub fn summarise(
     origin: &Origin,
 ) -> Summary {
     let (network, spectrum) = (&plan.network, &findings.spectrum);
-    let links_hash = links_hash(network);
     Summary {
         layout: LAYOUT,
         parameters: parameters::of(plan),
@@ -263,7 +272,7 @@ pub fn summarise(
             links: network.n_links(),
             components: plan.n_components,
             isolated_nodes: network.isolated_nodes().len(),
-            links_hash: links_hash.clone(),
+            links_hash: plan.links_hash.clone(),
         },
         eigenvalues: spectrum.eigenvalues.clone(),
         spectrum: SpectrumRecord {
@@ -289,9 +298,10 @@ pub fn summarise(
         global_synchrony: findings.synchrony.clone(),
         cascade: states::records(plan, findings),
         simulations: simulation_records(plan, findings),
+        simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, &links_hash, took, origin),
+        provenance: Provenance::new(plan, findings.taken, took, origin),
         experiment: plan.written.clone(),
     }
 }
@@ -374,31 +384,40 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
 fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord> {
     let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) else { return vec![] };
     let reference = sweep.observables.reference.map_or(0, |_| plan.network.n_nodes());
-    let record = |(position, &epsilon): (usize, &f64)| {
-        let runs = simulated.at(position);
-        let escaped = runs.iter().filter(|run| completed(run).is_none()).count();
-        SimulationRecord {
-            epsilon,
-            outcome: match escaped {
-                0 => "completed".into(),
-                all if all == runs.len() => "escaped".into(),
-                some => format!("{some} of {} escaped", runs.len()),
-            },
-            clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
-            agreement: findings
-                .agreement
-                .get(position)
-                .filter(|agreement| agreement.distance.is_some())
-                .map(|agreement| agreement_record(plan, agreement)),
-            error_to_reference: (0..reference)
-                .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
-                .collect(),
-            error_within_clusters: (0..sweep.observables.clusters.len())
-                .map(|m| simulated.over_seeds(position, |errors| errors.within_clusters[m]))
-                .collect(),
-        }
+    let record = |(position, &epsilon): (usize, &f64)| SimulationRecord {
+        epsilon,
+        outcome: outcome(simulated.at(position)),
+        n_seeds: simulated.bounded(position),
+        clusters: simulated.clusters(position).map(|c| named(&c.nontrivial(), plan)),
+        agreement: findings
+            .agreement
+            .get(position)
+            .filter(|agreement| matches!(agreement.predicted, Predicted::Unstable(_)))
+            .map(|agreement| agreement_record(plan, agreement)),
+        error_to_reference: (0..reference)
+            .map(|node| simulated.over_seeds(position, |errors| errors.to_reference[node]))
+            .collect(),
+        error_within_clusters: (0..sweep.observables.clusters.len())
+            .map(|m| simulated.over_seeds(position, |errors| errors.within_clusters[m]))
+            .collect(),
     };
     simulated.epsilon.iter().enumerate().map(record).collect()
+}
+
+/// How the runs at one ε ended.
+fn outcome(runs: &[Run]) -> String {
+    let count = |ended: fn(&Run) -> bool| runs.iter().filter(|run| ended(run)).count();
+    let escaped = count(|run| matches!(run.outcome, Outcome::Escaped { .. }));
+    let failed = count(|run| matches!(run.outcome, Outcome::Failed { .. }));
+    let all = runs.len();
+    match (escaped, failed) {
+        (0, 0) => "completed".into(),
+        (escaped, 0) if escaped == all => "escaped".into(),
+        (0, failed) if failed == all => "failed".into(),
+        (escaped, 0) => format!("{escaped} of {all} escaped"),
+        (0, failed) => format!("{failed} of {all} failed"),
+        (escaped, failed) => format!("{escaped} of {all} escaped, {failed} failed"),
+    }
 }
 
 fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
@@ -411,6 +430,9 @@ fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
         pearson: agreement.correlation.map(|correlation| correlation.pearson),
         spearman: agreement.correlation.map(|correlation| correlation.spearman),
         adjusted_rand_index: agreement.rand_index,
+        pearson_standard_error: agreement.errors.pearson,
+        spearman_standard_error: agreement.errors.spearman,
+        adjusted_rand_index_standard_error: agreement.errors.rand_index,
         regions: agreement.regions.as_ref().map(|regions| RegionRecord {
             predicted: names(regions.predicted.clusters()),
             simulated: names(regions.simulated.clusters()),

@@ -118,9 +118,10 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
     let rows = simulated.runs.iter().map(|run| {
         let errors = completed(run);
         let mut row = vec![number(run.replica.epsilon), run.replica.seed.to_string()];
-        row.push(match run.outcome {
+        row.push(match &run.outcome {
             dynamics::Outcome::Completed(_) => "completed".into(),
             dynamics::Outcome::Escaped { time } => format!("escaped at {time}"),
+            dynamics::Outcome::Failed { time, reason } => format!("failed at {time}: {reason}"),
         });
         row.extend(columns.iter().map(|of| errors.map_or(String::new(), |e| number(of(e).mean))));
         row
@@ -138,8 +139,7 @@ fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<(
     let n_nodes = plan.network.n_nodes();
     for (position, &epsilon) in simulated.epsilon.iter().enumerate() {
         let epsilon = plain(epsilon);
-        let distance = findings.agreement.get(position).and_then(|a| a.distance.as_ref());
-        if let Some(distance) = distance {
+        if let Some(distance) = drawing::distance(findings, position) {
             let name = format!("distance_epsilon_{epsilon}.npy");
             folder.write(&name, npy(n_nodes, &distance.matrix()))?;
         }

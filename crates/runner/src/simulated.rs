@@ -2,14 +2,21 @@
 //!
 //! "Synchronised" is defined once: two nodes are when δx_ij is below a bound, a cluster is when δx^c_m
 //! is. The bound is `synchronised_below`, a number or a fraction of the largest δx_ij at the same ε
-//! (a mean over seeds). Clusters at one ε come from the mean over seeds by single linkage; the onset
-//! of a cluster is found in every seed by itself and its spread over seeds reported.
+//! (a mean over seeds). Clusters at one ε come from the mean over seeds by single linkage; the range of
+//! ε in which clusters were seen is found in every seed by itself, see `simulated/range`.
+//!
+//! Means are over the runs that stayed bounded, and their number stands beside them. Nodes at ε = 0 are
+//! uncoupled: whether their errors are small is a property of each node, and no synchrony.
+
+mod range;
 
 use clustering::Partition;
 use dynamics::{Errors, Estimate, Outcome, Run};
 
 use crate::plan::Sweep;
 use crate::spec::Bound;
+
+pub use range::{End, Known, Seen};
 
 /// Errors below this, in units of the component, are what rounding and kicks leave of perfect
 /// synchrony: nodes that far apart are together, whatever fraction of the largest error it is.
@@ -24,16 +31,18 @@ pub struct Simulated {
     n_nodes: usize,
 }
 
-/// An error at one ε over all seeds.
+/// An error at one ε over the seeds that stayed bounded.
 #[derive(Clone, Copy, Debug, serde::Serialize)]
 pub struct OverSeeds {
-    /// Mean over seeds.
+    /// Mean over these seeds.
     pub mean: f64,
-    /// Standard deviation over seeds; zero for a single one.
+    /// Standard deviation over them; zero for a single one.
     pub spread: f64,
     /// Standard error of the mean: the larger of what the blocks within the runs and the scatter of
     /// the seeds tell.
     pub standard_error: f64,
+    /// How many they are.
+    pub n_seeds: usize,
 }
 
 /// δx_ij of all pairs i < j.
@@ -54,18 +63,6 @@ impl MeanPairs {
     }
 }
 
-/// ε from which on clusters stay synchronised, over all seeds.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct Onset {
-    /// Mean over seeds; none unless every seed has an onset within the sweep.
-    pub mean: Option<f64>,
-    /// Standard deviation over seeds.
-    pub spread: Option<f64>,
-    /// Of each seed; none where the clusters are not synchronised at the largest ε, and the smallest
-    /// ε of the sweep where they are synchronised throughout.
-    pub of_seeds: Vec<Option<f64>>,
-}
-
 impl Simulated {
     pub fn new(sweep: &Sweep, n_nodes: usize, runs: Vec<Run>) -> Self {
         Self {
@@ -77,14 +74,14 @@ impl Simulated {
         }
     }
 
+    /// Number of nodes of the network.
+    pub fn n_nodes(&self) -> usize {
+        self.n_nodes
+    }
+
     /// Position of a coupling strength in the sweep.
     pub fn position(&self, epsilon: f64) -> Option<usize> {
         self.epsilon.iter().position(|&value| value == epsilon)
-    }
-
-    /// Largest distance between neighbouring couplings of the sweep.
-    pub fn widest_step(&self) -> f64 {
-        self.epsilon.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
     }
 
     /// The runs at one ε, in the order of seeds.
@@ -112,17 +109,46 @@ impl Simulated {
             mean: over_seeds.mean,
             spread: scatter * n.sqrt(),
             standard_error: scatter.max(blocks.sqrt() / n),
+            n_seeds: means.len(),
         })
     }
 
-    /// Whether errors of all pairs were observed.
-    pub fn has_pairs(&self) -> bool {
-        self.runs.iter().find_map(completed).is_some_and(|errors| !errors.pairs.is_empty())
+    /// How many runs at one ε escaped.
+    pub fn escaped(&self, position: usize) -> usize {
+        let escaped = |run: &&Run| matches!(run.outcome, Outcome::Escaped { .. });
+        self.at(position).iter().filter(escaped).count()
+    }
+
+    /// How many runs at one ε came to no end: they escaped, or the integrator gave up.
+    pub fn broken_off(&self, position: usize) -> usize {
+        self.at(position).iter().filter(|run| completed(run).is_none()).count()
+    }
+
+    /// What runs did that came to no end, in a word.
+    pub fn broke_off(&self) -> &'static str {
+        let has_failed = self.runs.iter().any(|run| matches!(run.outcome, Outcome::Failed { .. }));
+        if has_failed { "broke off" } else { "escaped" }
+    }
+
+    /// How many runs at one ε stayed bounded.
+    pub fn bounded(&self, position: usize) -> usize {
+        self.seeds.len() - self.broken_off(position)
     }
 
     /// δx_ij at one ε as means over the seeds that stayed bounded; none if none did.
     pub fn mean_pairs(&self, position: usize) -> Option<MeanPairs> {
-        let errors: Vec<&Errors> = self.at(position).iter().filter_map(completed).collect();
+        self.mean_pairs_but(position, None)
+    }
+
+    /// The same means with one of these seeds, counted from 0, left out.
+    pub fn mean_pairs_without(&self, position: usize, seed: usize) -> Option<MeanPairs> {
+        self.mean_pairs_but(position, Some(seed))
+    }
+
+    fn mean_pairs_but(&self, position: usize, left_out: Option<usize>) -> Option<MeanPairs> {
+        let bounded = self.at(position).iter().filter_map(completed).enumerate();
+        let errors: Vec<&Errors> =
+            bounded.filter(|(seed, _)| Some(*seed) != left_out).map(|(_, errors)| errors).collect();
         let first = errors.first().filter(|errors| !errors.pairs.is_empty())?;
         let mean = |pair: usize| {
             errors.iter().map(|errors| errors.pairs[pair].mean).sum::<f64>() / errors.len() as f64
@@ -137,17 +163,27 @@ impl Simulated {
     }
 
     /// Clusters at one ε: single linkage of the mean δx_ij over seeds. None unless pairs were observed
-    /// and a run stayed bounded.
+    /// and a run stayed bounded; every node by itself at ε = 0, where there is nothing to synchronise
+    /// by.
     pub fn clusters(&self, position: usize) -> Option<Partition> {
-        let mean = self.mean_pairs(position)?;
-        // Below, not at: a bound belongs to those that are not synchronised.
-        let threshold = self.bound(position).next_down();
-        Some(Partition::single_linkage(self.n_nodes, |i, j| mean.of(i, j), threshold))
+        Some(self.clusters_of(position, &self.mean_pairs(position)?))
     }
 
-    /// δx^c_m of any set of nodes in one run: the mean over its pairs; infinite if the run escaped.
-    pub fn cluster_error(&self, run: &Run, cluster: &[usize]) -> f64 {
-        let Some(errors) = completed(run) else { return f64::INFINITY };
+    /// The same clusters of other means at this ε, such as those with a seed left out.
+    pub fn clusters_of(&self, position: usize, mean: &MeanPairs) -> Partition {
+        if self.epsilon[position] == 0.0 {
+            return Partition::from_marks(&(0..self.n_nodes).collect::<Vec<_>>());
+        }
+        let bound = self.synchronised_below.value(|| mean.largest()).max(PERFECT_SYNCHRONY);
+        // Below, not at: a bound belongs to those that are not synchronised.
+        Partition::single_linkage(self.n_nodes, |i, j| mean.of(i, j), bound.next_down())
+    }
+
+    /// δx^c_m of a set of two nodes or more in one run: the mean over its pairs; none if the run
+    /// escaped.
+    pub fn cluster_error(&self, run: &Run, cluster: &[usize]) -> Option<f64> {
+        let errors = completed(run)?;
+        assert!(cluster.len() > 1, "{} nodes have no pair", cluster.len());
         let pairs = cluster
             .iter()
             .enumerate()
@@ -157,49 +193,20 @@ impl Simulated {
             sum += errors.pair(i, j, self.n_nodes);
             count += 1.0;
         }
-        sum / count
+        Some(sum / count)
     }
 
-    /// Largest δx^c_m of some clusters at one ε, as a mean over seeds.
-    pub fn largest_cluster_error(&self, position: usize, clusters: &[Vec<usize>]) -> f64 {
+    /// Largest δx^c_m of some clusters at one ε, as a mean over seeds; none without clusters, or where
+    /// a run escaped.
+    pub fn largest_cluster_error(&self, position: usize, clusters: &[Vec<usize>]) -> Option<f64> {
         let runs = self.at(position);
         let mean = |cluster: &Vec<usize>| {
-            let sum: f64 = runs.iter().map(|run| self.cluster_error(run, cluster)).sum();
-            sum / runs.len() as f64
+            let errors: Option<Vec<f64>> =
+                runs.iter().map(|run| self.cluster_error(run, cluster)).collect();
+            errors.map(|errors| errors.iter().sum::<f64>() / errors.len() as f64)
         };
-        clusters.iter().map(mean).fold(0.0, f64::max)
-    }
-
-    /// From which ε on all of these clusters stay synchronised: midway between the largest ε of the
-    /// sweep at which one of them is not, and the next.
-    pub fn onset(&self, clusters: &[Vec<usize>]) -> Onset {
-        let bounds: Vec<f64> = (0..self.epsilon.len()).map(|at| self.bound(at)).collect();
-        let synchronised = |position: usize, seed: usize| {
-            let run = &self.at(position)[seed];
-            clusters.iter().all(|c| self.cluster_error(run, c) < bounds[position])
-        };
-        let of_seed = |seed| {
-            let last_lost = (0..self.epsilon.len()).rev().find(|&at| !synchronised(at, seed));
-            match last_lost {
-                None => self.epsilon.first().copied(),
-                Some(lost) => {
-                    let kept = self.epsilon.get(lost + 1)?;
-                    Some(0.5 * (self.epsilon[lost] + kept))
-                }
-            }
-        };
-        let of_seeds: Vec<Option<f64>> = (0..self.seeds.len()).map(of_seed).collect();
-        let all: Option<Vec<f64>> = of_seeds.iter().copied().collect();
-        let over_seeds = all.as_deref().map(|values| {
-            let estimate = Estimate::from_independent(values);
-            let root_n = (values.len() as f64).sqrt();
-            (estimate.mean, if values.len() > 1 { estimate.standard_error * root_n } else { 0.0 })
-        });
-        Onset {
-            mean: over_seeds.map(|(mean, _)| mean),
-            spread: over_seeds.map(|(_, s)| s),
-            of_seeds,
-        }
+        let means: Option<Vec<f64>> = clusters.iter().map(mean).collect();
+        means?.into_iter().reduce(f64::max)
     }
 }
 
@@ -207,24 +214,34 @@ impl Simulated {
 pub fn completed(run: &Run) -> Option<&Errors> {
     match &run.outcome {
         Outcome::Completed(errors) => Some(errors),
-        Outcome::Escaped { .. } => None,
+        Outcome::Escaped { .. } | Outcome::Failed { .. } => None,
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use dynamics::Replica;
 
     use super::*;
 
-    /// Two nodes whose error is given for each ε and seed.
-    fn simulated(errors: &[[f64; 2]]) -> Simulated {
+    /// Two nodes whose error is given for each ε, from 0 in steps of 1, and each of two seeds; an
+    /// infinite one is a run that escaped.
+    pub(crate) fn simulated(errors: &[[f64; 2]]) -> Simulated {
+        from(0.0, errors)
+    }
+
+    /// The same from another ε on.
+    pub(crate) fn from(first: f64, errors: &[[f64; 2]]) -> Simulated {
         let run = |epsilon: f64, seed: u64, mean: f64| {
             let pairs = vec![Estimate { mean, standard_error: 0.0 }];
-            let outcome = Outcome::Completed(Errors { pairs, ..Errors::default() });
+            let outcome = if mean.is_finite() {
+                Outcome::Completed(Errors { pairs, ..Errors::default() })
+            } else {
+                Outcome::Escaped { time: 1.0 }
+            };
             Run { replica: Replica { epsilon, seed }, outcome }
         };
-        let epsilon: Vec<f64> = (0..errors.len()).map(|k| k as f64).collect();
+        let epsilon: Vec<f64> = (0..errors.len()).map(|k| first + k as f64).collect();
         let runs = errors
             .iter()
             .zip(&epsilon)
@@ -239,26 +256,8 @@ mod tests {
     }
 
     #[test]
-    fn an_onset_lies_above_the_last_coupling_at_which_synchrony_is_lost() {
-        // Seed 2 bursts once more at ε = 3 after looking synchronised at 2.
-        let sweep = simulated(&[[5.0, 5.0], [5.0, 5.0], [0.0, 0.0], [0.0, 0.2], [0.0, 0.0]]);
-        let onset = sweep.onset(&[vec![0, 1]]);
-        assert_eq!(onset.of_seeds, [Some(1.5), Some(3.5)]);
-        assert_eq!(onset.mean, Some(2.5));
-        assert_eq!(onset.spread, Some(2f64.sqrt()));
-    }
-
-    #[test]
-    fn there_is_no_onset_where_the_largest_coupling_does_not_synchronise() {
-        let sweep = simulated(&[[5.0, 5.0], [5.0, 0.0]]);
-        let onset = sweep.onset(&[vec![0, 1]]);
-        assert_eq!(onset.of_seeds, [None, Some(0.5)]);
-        assert_eq!(onset.mean, None);
-    }
-
-    #[test]
     fn a_relative_bound_follows_the_largest_error_down_to_perfect_synchrony() {
-        let mut sweep = simulated(&[[4.0, 2.0], [1e-12, 3e-12]]);
+        let mut sweep = from(1.0, &[[4.0, 2.0], [1e-12, 3e-12]]);
         sweep.synchronised_below = Bound::OfLargest(0.1);
         assert_eq!(sweep.bound(0), 0.1 * 3.0);
         assert_eq!(sweep.bound(1), PERFECT_SYNCHRONY);
@@ -267,8 +266,31 @@ mod tests {
 
     #[test]
     fn nodes_cluster_when_their_mean_error_is_below_the_threshold() {
-        let sweep = simulated(&[[0.0, 0.19], [0.0, 0.2]]);
+        let sweep = from(1.0, &[[0.0, 0.19], [0.0, 0.2]]);
         assert_eq!(sweep.clusters(0).unwrap().nontrivial(), [vec![0, 1]]);
         assert!(sweep.clusters(1).unwrap().nontrivial().is_empty());
+    }
+
+    #[test]
+    fn nodes_at_zero_coupling_are_never_synchronised() {
+        let sweep = simulated(&[[0.0, 0.0], [0.0, 0.0]]);
+        assert!(sweep.clusters(0).unwrap().nontrivial().is_empty());
+        assert_eq!(sweep.clusters(1).unwrap().nontrivial(), [vec![0, 1]]);
+    }
+
+    #[test]
+    fn every_mean_says_of_how_many_seeds_it_is() {
+        let sweep = from(1.0, &[[2.0, f64::INFINITY], [f64::INFINITY; 2]]);
+        let error = sweep.over_seeds(0, |errors| errors.pairs[0]).unwrap();
+        assert_eq!((error.mean, error.n_seeds), (2.0, 1));
+        assert!(sweep.over_seeds(1, |errors| errors.pairs[0]).is_none());
+        assert_eq!([0, 1].map(|at| sweep.escaped(at)), [1, 2]);
+        // An average over those that happened to survive is no error of the network.
+        assert_eq!(sweep.largest_cluster_error(0, &[vec![0, 1]]), None);
+    }
+
+    #[test]
+    fn no_clusters_have_no_error() {
+        assert_eq!(from(1.0, &[[2.0, 2.0]]).largest_cluster_error(0, &[]), None);
     }
 }

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::agreement::Agreement;
 use crate::claims::Claim;
+use crate::simulated::{End, Known};
 
 /// Lists with more entries are abridged.
 const LONG_LIST: usize = 8;
@@ -74,6 +75,57 @@ pub fn agreement<'a>(
         ]);
     }
     (!is_empty).then(|| table.to_string())
+}
+
+/// A predicted state beside what the sweep shows of it.
+pub struct StateRow {
+    pub id: String,
+    /// The predicted range of ε, without upper end where it has none.
+    pub predicted: (f64, Option<f64>),
+    /// Ends of the range in which its clusters were seen.
+    pub seen: [End; 2],
+    /// Runs of the sweep in the predicted range, and how many of them escaped.
+    pub runs: [usize; 2],
+}
+
+/// Where predicted states were seen in simulation, of so many experiments.
+pub fn states(of: &[StateRow]) -> Option<String> {
+    let mut table = Table::new();
+    table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header(["experiment", "predicted for ε", "seen from", "to", "runs that escaped"]);
+    for row in of {
+        let predicted = match row.predicted {
+            (from, Some(to)) => format!("{} to {}", four_digits(from), four_digits(to)),
+            (from, None) => format!("above {}", four_digits(from)),
+        };
+        let [from, to] = row.seen.each_ref().map(end);
+        let escaped = match row.runs {
+            [0, _] => String::new(),
+            [runs, escaped] => format!("{escaped} of {runs}"),
+        };
+        table.add_row([row.id.clone(), predicted, from, to, escaped]);
+    }
+    (!of.is_empty()).then(|| table.to_string())
+}
+
+/// An end of a range as far as it is known.
+fn end(end: &End) -> String {
+    let limit = || end.limit.map_or_else(String::new, four_digits);
+    let text = match end.bound {
+        Known::Measured => {
+            let mean = end.mean.map_or_else(String::new, four_digits);
+            let error = end.uncertainty().map_or_else(String::new, two_digits);
+            format!("{mean} ± {error}")
+        }
+        Known::AtMost => format!("at most {}", limit()),
+        Known::AtLeast => format!("at least {}", limit()),
+        Known::Unseen => "not seen".into(),
+        Known::NotSwept => "not swept".into(),
+    };
+    match end.n_escaped {
+        0 => text,
+        escaped => format!("{text}, where {escaped} of {} escaped", end.of_seeds.len()),
+    }
 }
 
 /// The time that an experiment took.

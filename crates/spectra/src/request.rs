@@ -19,7 +19,7 @@ const STRICTEST_TOLERANCE: f64 = 1e-13;
 const LOOSEST_TOLERANCE: f64 = 1e-3;
 
 /// How many modes, counted from the largest eigenvalue down.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum Modes {
     /// All N.
     All,
@@ -32,7 +32,7 @@ pub enum Modes {
 }
 
 /// Which solver may be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum SolverChoice {
     /// Dense for few nodes (see [`DENSE_NODES`]) or when more than half of all modes are asked for;
     /// otherwise shift-invert where a sparse factorisation is cheap; elsewhere ARPACK up to
@@ -49,7 +49,7 @@ pub enum SolverChoice {
 }
 
 /// A request for the leading modes of a coupling matrix.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Request {
     /// How many modes.
     pub modes: Modes,

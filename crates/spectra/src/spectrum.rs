@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// How a spectrum was computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Solver {
     /// All modes by a dense symmetric solver.
     Dense,
@@ -19,7 +19,7 @@ pub enum Solver {
 ///
 /// "Above" means above the last eigenvalue of the spectrum, copies of it included, or above the
 /// cutoff where one was asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Verification {
     /// All eigenvalues were computed.
     Dense,
@@ -40,7 +40,7 @@ pub enum Verification {
 }
 
 /// Leading modes of a coupling matrix.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Spectrum {
     /// λ_1 ≥ λ_2 ≥ …, those computed.
     pub eigenvalues: Vec<f64>,

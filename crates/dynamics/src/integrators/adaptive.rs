@@ -8,16 +8,19 @@
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 
+use serde::Serialize;
+
+use crate::batches::Numbered;
 use crate::kicks::Kicks;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
 use crate::{
-    Coupling, DynamicsError, ESCAPE_RADIUS, Oscillator, Outcome, Progress, Replica, Simulation,
-    SparseMatrix,
+    Coupling, ESCAPE_RADIUS, Next, Observer, Oscillator, Outcome, Simulation, Snapshot,
+    SparseMatrix, Start,
 };
 
 /// Order of the adaptive method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum AdaptiveOrder {
     /// Dormand–Prince 5(4).
     Five,
@@ -26,7 +29,7 @@ pub enum AdaptiveOrder {
 }
 
 /// An adaptive method with its tolerances on the local error of each component.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Adaptive {
     /// Which of the two.
     pub order: AdaptiveOrder,
@@ -36,38 +39,96 @@ pub struct Adaptive {
     pub absolute_tolerance: f64,
 }
 
-/// Runs one replica to its end.
+/// Runs one replica to its end; none when the observer wanted to stop.
 pub(crate) fn run<O: Oscillator<D>, const D: usize>(
     oscillator: O,
     simulation: &Simulation<'_>,
     method: Adaptive,
-    replica: Replica,
-    progress: Progress<'_>,
-) -> Result<Outcome, DynamicsError> {
-    let Simulation { schedule, observables, coupling, matrix, kick, .. } = simulation;
+    (number, start): Numbered,
+    observer: &dyn Observer,
+) -> Option<Outcome> {
+    let Simulation { schedule, observables, coupling, matrix, .. } = simulation;
     let n_nodes = matrix.rows();
-    let system = Flat::<O, D> { oscillator, coupling: *coupling, matrix, epsilon: replica.epsilon };
-    let start = initial_states::<O, D>(n_nodes, replica.seed);
-    let mut y = DVector::from_fn(D * n_nodes, |row, _| start[row % n_nodes][row / n_nodes]);
-    let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), [replica]);
-    let mut sums = ErrorSums::<1>::new(observables, n_nodes, schedule.samples_per_block());
-    for sample in 1..=schedule.transient_samples() + schedule.samples() {
-        let solved = method.advance(&system, &mut y, schedule.sampling_interval());
-        let time = schedule.time_of(sample);
+    let epsilon = start.replica.epsilon;
+    let system = Flat::<O, D> { oscillator, coupling: *coupling, matrix, epsilon };
+    let transient = schedule.transient_samples();
+    let (done, end) = (start.sample(), transient + schedule.samples());
+    let mut orbit = Orbit::begin::<O, D>(simulation, start);
+    let ended = |outcome: Outcome| {
+        observer.finished(number, &outcome);
+        Some(outcome)
+    };
+    for sample in done + 1..=end {
+        let Orbit { y, sums, kicks } = &mut orbit;
+        let solved = method.advance(&system, y, schedule.sampling_interval());
         if !y.iter().all(|x| x.abs() < ESCAPE_RADIUS) {
-            return Ok(Outcome::Escaped { time });
+            return ended(Outcome::Escaped { time: schedule.time_of(sample) });
         }
-        solved.map_err(|reason| DynamicsError::Adaptive { time, reason: reason.to_string() })?;
-        if sample > schedule.transient_samples() {
+        if let Err(error) = solved {
+            let (since, reason) = told(&error);
+            let time = schedule.time_of(sample - 1) + since;
+            return ended(Outcome::Failed { time, reason });
+        }
+        if sample > transient {
             let component = &y.as_slice()[observables.component * n_nodes..][..n_nodes];
             sums.sample(component.as_chunks().0.iter());
         }
         if kicks.due(sample) {
             y.iter_mut().for_each(|y| kicks.apply(std::array::from_mut(y)));
         }
-        progress(u64::from(schedule.stride));
+        match observer.advanced(&[number], u64::from(schedule.stride)) {
+            Next::Snapshot if sample < end => {
+                let sums = if sample > transient { sums.kept(0) } else { Vec::new() };
+                let state = y.as_slice().to_vec();
+                observer.snapshot(number, Snapshot { sample, state, sums });
+            }
+            Next::Stop if sample < end => return None,
+            Next::GoOn | Next::Snapshot | Next::Stop => {}
+        }
     }
-    Ok(Outcome::Completed(sums.errors(0)))
+    ended(Outcome::Completed(orbit.sums.errors(0)))
+}
+
+/// When the solver gave up, from where it began, and why.
+fn told(error: &IntegrationError) -> (f64, String) {
+    match *error {
+        IntegrationError::MaxNumStepReached { x, n_step } => {
+            (x, format!("{n_step} steps did not reach the next sample"))
+        }
+        IntegrationError::StepSizeUnderflow { x } => (x, "its step became too small".into()),
+        IntegrationError::StiffnessDetected { x } => {
+            (x, "the equations are too stiff for an explicit method".into())
+        }
+    }
+}
+
+/// All that changes while a replica runs.
+struct Orbit {
+    /// All nodes of the first component, then of the next.
+    y: DVector<f64>,
+    sums: ErrorSums<1>,
+    kicks: Kicks<1>,
+}
+
+impl Orbit {
+    /// The initial state of a replica, or that of its snapshot.
+    fn begin<O: Oscillator<D>, const D: usize>(simulation: &Simulation<'_>, start: Start) -> Self {
+        let Simulation { schedule, observables, matrix, kick, .. } = simulation;
+        let (n_nodes, replica) = (matrix.rows(), start.replica);
+        let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), [replica]);
+        let mut sums = ErrorSums::<1>::new(observables, n_nodes, schedule.samples_per_block());
+        let Some(Snapshot { sample, state, sums: kept }) = start.from else {
+            let drawn = initial_states::<O, D>(n_nodes, replica.seed);
+            let y = DVector::from_fn(D * n_nodes, |row, _| drawn[row % n_nodes][row / n_nodes]);
+            return Self { y, sums, kicks };
+        };
+        if let Some(averaged) = sample.checked_sub(schedule.transient_samples() + 1) {
+            sums.restore(0, &kept);
+            sums.go_on_after(averaged + 1);
+        }
+        kicks.go_on_after(sample, D * n_nodes);
+        Self { y: DVector::from_vec(state), sums, kicks }
+    }
 }
 
 impl Adaptive {

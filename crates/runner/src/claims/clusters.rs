@@ -6,23 +6,23 @@ use clustering::{Partition, RegionClusters};
 use graph::Network;
 use serde_json::{Value, json};
 
-use super::Judge;
+use super::{Answer, Judge, Judged};
 use crate::plan::nodes_named;
 use crate::problem::Result;
 use crate::spec::{Name, Quantity};
 
 impl Judge<'_> {
-    pub(super) fn clusters(&self) -> Result<(Value, Value, String, bool)> {
+    pub(super) fn clusters(&self) -> Result<Judged> {
         let paper: Vec<Vec<Name>> = self.equals("a list of clusters")?;
         let obtained = self.epsilon().first().and_then(|&epsilon| self.clusters_at(epsilon));
         let stated: BTreeSet<BTreeSet<usize>> =
             self.nodes(&paper).into_iter().map(|cluster| cluster.into_iter().collect()).collect();
         let Some(clusters) = obtained else {
-            return Ok((json!(texts(&paper)), Value::Null, "exact".into(), false));
+            return Ok(Judged::new(json!(texts(&paper)), Value::Null, "exact", false));
         };
         let found = clusters.iter().map(|cluster| cluster.iter().copied().collect()).collect();
         let shown = named(&clusters, &self.plan.network);
-        Ok((json!(texts(&paper)), json!(shown), "exact".into(), stated == found))
+        Ok(Judged::new(json!(texts(&paper)), json!(shown), "exact", stated == found))
     }
 
     fn clusters_at(&self, epsilon: f64) -> Option<Vec<Vec<usize>>> {
@@ -50,25 +50,26 @@ impl Judge<'_> {
     }
 
     /// Positions of the clusters, from 1, in the order in which they are lost as ε falls.
-    pub(super) fn order(&self) -> Result<(Value, Value, String, bool)> {
+    pub(super) fn order(&self) -> Result<Judged> {
         let paper: Vec<usize> = self.equals("a list of positions")?;
         let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
-        let lost_at = |cluster: &Vec<usize>| match self.spec.of {
-            Quantity::CascadeOrder => self.findings.predicted_loss(cluster),
-            _ => self
-                .findings
-                .simulated
-                .as_ref()
-                .and_then(|s| s.onset(std::slice::from_ref(cluster)).mean),
+        let lost_between = |cluster: &Vec<usize>| match self.spec.of {
+            Quantity::CascadeOrder => {
+                self.findings.predicted_loss(cluster).map(|lost| [lost, lost])
+            }
+            _ => self.findings.seen(std::slice::from_ref(cluster))?.onset.interval,
         };
-        let lost: Option<Vec<f64>> = clusters.iter().map(lost_at).collect();
+        let lost: Option<Vec<[f64; 2]>> = clusters.iter().map(lost_between).collect();
         let Some(lost) = lost else {
-            return Ok((json!(paper), Value::Null, "exact".into(), false));
+            return Ok(Judged::new(json!(paper), Value::Null, "exact", false));
         };
         let mut order: Vec<usize> = (1..=clusters.len()).collect();
-        order.sort_by(|a, b| lost[b - 1].total_cmp(&lost[a - 1]));
-        let holds = order == paper;
-        Ok((json!(paper), json!(order), "exact".into(), holds))
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        order.sort_by(|a, b| middle(lost[b - 1]).total_cmp(&middle(lost[a - 1])));
+        let predicted = self.spec.of == Quantity::CascadeOrder;
+        let answer = follows(&paper, &lost, predicted);
+        let shown = if let Answer::CannotBeJudged(_) = answer { Value::Null } else { json!(order) };
+        Ok(Judged::new(json!(paper), shown, "exact", answer))
     }
 
     /// Node numbers of labels that the plan has checked.
@@ -79,6 +80,25 @@ impl Judge<'_> {
         };
         clusters.iter().map(nodes).collect()
     }
+}
+
+/// Whether clusters that are lost somewhere between two ε each are lost in this order as ε falls. Two
+/// that are predicted to be lost together have no order; of two that overlap it is not known.
+fn follows(order: &[usize], lost: &[[f64; 2]], predicted: bool) -> Answer {
+    let one_after_other = |pair: &[usize]| {
+        let ([low, high], [next_low, next_high]) = (lost[pair[0] - 1], lost[pair[1] - 1]);
+        if low >= next_high && low > next_low {
+            Answer::Holds
+        } else if predicted || high <= next_low {
+            Answer::Differs
+        } else {
+            Answer::CannotBeJudged(format!(
+                "clusters {} and {} are lost too near each other to tell which is first",
+                pair[0], pair[1]
+            ))
+        }
+    };
+    Answer::of_all(order.windows(2).map(one_after_other))
 }
 
 fn texts(clusters: &[Vec<Name>]) -> Vec<Vec<&str>> {
@@ -106,4 +126,32 @@ fn named<'a>(clusters: &[Vec<usize>], network: &'a Network) -> Vec<Vec<&'a str>>
 pub fn labelled<'a>(clusters: &[Vec<usize>], network: &'a Network) -> Vec<Vec<&'a str>> {
     let label = |&node: &usize| network.labels()[node].as_str();
     clusters.iter().map(|cluster| cluster.iter().map(label).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clusters_lost_together_are_in_no_order() {
+        let lost = [[2.0, 2.0], [2.0, 2.0], [1.0, 1.0]];
+        assert_eq!(follows(&[1, 2, 3], &lost, true), Answer::Differs);
+        assert_eq!(follows(&[1, 3], &lost, true), Answer::Holds);
+        assert_eq!(follows(&[3, 1], &lost, true), Answer::Differs);
+    }
+
+    #[test]
+    fn simulated_losses_that_overlap_or_lie_below_the_sweep_are_in_no_known_order() {
+        let unknown = |lost: [[f64; 2]; 2]| {
+            [[1, 2], [2, 1]]
+                .map(|order| follows(&order, &lost, false))
+                .iter()
+                .all(|answer| matches!(answer, Answer::CannotBeJudged(_)))
+        };
+        assert!(unknown([[1.0, 2.0], [1.0, 2.0]]), "between the same points");
+        assert!(unknown([[0.0, 1.0], [0.0, 1.0]]), "both below the sweep");
+        assert!(unknown([[1.0, 2.0], [1.5, 2.5]]), "means of seeds that overlap");
+        assert_eq!(follows(&[1, 2], &[[1.0, 2.0], [0.0, 1.0]], false), Answer::Holds);
+        assert_eq!(follows(&[2, 1], &[[1.0, 2.0], [0.0, 1.0]], false), Answer::Differs);
+    }
 }

@@ -1,9 +1,9 @@
 //! Figures of predictions above simulations, one column for each ε: matrices of δe_ij and δx_ij
 //! (the paper's Figs. 2 to 4), or nodes in space coloured by clusters of regions (its Fig. 5).
 
-use clustering::{Partition, maximum_overlap};
+use clustering::{Correlation, EigenvectorDistance, Partition, maximum_overlap};
 
-use crate::agreement::{Agreement, Regions};
+use crate::agreement::{Agreement, Predicted, Regions};
 use crate::figures::{
     Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
     components_panel, pairs_figure,
@@ -29,7 +29,7 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
     let matrices = shown(simulated).map(|position| {
         let agreement = findings.agreement.get(position);
         [
-            predicted(plan, simulated, agreement, position),
+            predicted(plan, findings, simulated, position),
             errors(plan, simulated, agreement, position),
         ]
     });
@@ -55,17 +55,31 @@ fn grouped_network(plan: &Plan) -> NetworkPanel {
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
 pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
     let positions = plan.network.positions().unwrap_or_default();
-    let panel = |position: usize, clusters: Vec<Option<usize>>| {
+    let panel = |position: usize, clusters: Vec<Option<usize>>, grey: &str| {
         Content::Positions(PositionsPanel {
             title: epsilon(simulated.epsilon[position]),
             positions: positions.to_vec(),
             clusters,
-            grey_label: Label::text("not synchronisable"),
+            grey_label: Label::text(grey),
         })
     };
-    let columns = shown(simulated).filter_map(|position| {
-        let regions = findings.agreement.get(position)?.regions.as_ref()?;
-        Some(colours(regions).map(|clusters| panel(position, clusters)))
+    let columns = shown(simulated).map(|position| {
+        let agreement = findings.agreement.get(position);
+        if let Some(regions) = agreement.and_then(|agreement| agreement.regions.as_ref()) {
+            return colours(regions)
+                .map(|clusters| panel(position, clusters, "not synchronisable"));
+        }
+        // Nothing to tell nodes apart by, or nothing to compare: the word says which.
+        let grey = |word| panel(position, vec![None; positions.len()], word);
+        let of = agreement.map_or(&Predicted::NotReached, |agreement| &agreement.predicted);
+        let predicted = match of {
+            Predicted::Uncoupled => grey("uncoupled"),
+            Predicted::NotReached => grey("not predicted"),
+            Predicted::AllTogether => panel(position, vec![Some(0); positions.len()], ""),
+            Predicted::Unstable(_) => grey("not compared"),
+        };
+        let escaped = simulated.bounded(position) == 0;
+        [predicted, grey(if escaped { "all runs escaped" } else { "not compared" })]
     });
     pairs_figure(plan.experiment.title.clone(), columns.collect())
 }
@@ -137,25 +151,41 @@ fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
     })
 }
 
+/// δe_ij; zeros only where it was computed that no mode is unstable, and a word elsewhere.
 fn predicted(
     plan: &Plan,
+    findings: &Findings,
     simulated: &Simulated,
-    agreement: Option<&Agreement>,
     position: usize,
 ) -> HeatMapPanel {
     let n_nodes = plan.network.n_nodes();
-    let distance = agreement.and_then(|agreement| agreement.distance.as_ref());
+    let uniform = |value: f64| vec![value; n_nodes * n_nodes];
+    let of = findings.agreement.get(position).map_or(&Predicted::NotReached, |a| &a.predicted);
+    let (values, word) = match of {
+        Predicted::Uncoupled => (uniform(f64::NAN), "uncoupled"),
+        Predicted::NotReached => (uniform(f64::NAN), "not predicted"),
+        Predicted::AllTogether => (uniform(0.0), ""),
+        Predicted::Unstable(_) => {
+            let distance = distance(findings, position);
+            (distance.map_or_else(|| uniform(f64::NAN), |distance| distance.matrix()), "")
+        }
+    };
     HeatMapPanel {
         title: epsilon(simulated.epsilon[position]),
         n_nodes,
-        // With no unstable mode all nodes are predicted to be together.
-        values: distance
-            .map_or_else(|| vec![0.0; n_nodes * n_nodes], clustering::EigenvectorDistance::matrix),
+        values,
         range: None,
         bar_label: Label::math("δe").subscript("ij"),
-        without_values: Label::text("not predicted"),
+        without_values: Label::text(word),
         groups: groups(plan),
     }
+}
+
+/// δe_ij over the modes that are unstable at one ε of the sweep; none where there are none, or none
+/// are known.
+pub fn distance(findings: &Findings, position: usize) -> Option<EigenvectorDistance> {
+    let predicted = &findings.agreement.get(position)?.predicted;
+    predicted.distance(&findings.spectrum).expect("it could be computed for the agreement")
 }
 
 fn errors(
@@ -166,18 +196,27 @@ fn errors(
 ) -> HeatMapPanel {
     let correlation = agreement.and_then(|agreement| agreement.correlation);
     HeatMapPanel {
-        title: match correlation {
-            Some(correlation) => {
-                Label::math("r").with_text(format!(" = {:.2}", correlation.pearson))
-            }
-            None => Label::default(),
-        },
+        title: error_title(simulated, correlation, position),
         n_nodes: plan.network.n_nodes(),
         values: error_matrix(plan, simulated, position),
         range: None,
         bar_label: Label::math("δx").subscript("ij"),
-        without_values: Label::text("all runs escaped"),
+        without_values: Label::text(format!("all runs {}", simulated.broke_off())),
         groups: groups(plan),
+    }
+}
+
+/// The correlation with δe_ij, and of how many runs the means are if some came to no end.
+fn error_title(simulated: &Simulated, correlation: Option<Correlation>, position: usize) -> Label {
+    let n_runs = simulated.seeds.len();
+    let lost = match simulated.broken_off(position) {
+        lost if lost == 0 || lost == n_runs => None,
+        lost => Some(format!("{lost} of {n_runs} runs {}", simulated.broke_off())),
+    };
+    match (correlation.map(|correlation| correlation.pearson), lost) {
+        (Some(r), None) => Label::math("r").with_text(format!(" = {r:.2}")),
+        (Some(r), Some(lost)) => Label::math("r").with_text(format!(" = {r:.2}, {lost}")),
+        (None, lost) => Label::text(lost.unwrap_or_default()),
     }
 }
 

@@ -22,6 +22,8 @@ const RIGHT: f64 = 8.0;
 const ABOVE: f64 = 8.0;
 /// Room above the frame for the names of spans.
 const SPAN_ROW: f64 = 13.0;
+/// Height of the sample of a shaded span in the legend.
+const SHADE_SAMPLE: f64 = 7.0;
 /// Share of the height of a frame that a legend above it may take.
 const LEGEND_SHARE: f64 = 0.5;
 /// Least distance between numbers along x and along y.
@@ -51,6 +53,8 @@ pub struct LinePanel {
     pub notes: Vec<Note>,
     /// Spans of x with a grey background, [from, to].
     pub shaded: Vec<[f64; 2]>,
+    /// What these are, in the legend; an empty label for no entry.
+    pub shaded_label: Label,
     /// Whether every point stands alone as a mark, rather than joined to the next by a line; the
     /// spread is not drawn then.
     pub marks_only: bool,
@@ -187,7 +191,11 @@ impl LinePanel {
             let stroke = markers::stroke(g.style);
             Some(Entry { has_line: true, stroke, shape: None, label })
         });
-        curves.chain(lines).collect()
+        let shade = Some(&self.shaded_label).filter(|label| !label.is_empty()).map(|label| {
+            let stroke = Stroke::solid(SHADE, SHADE_SAMPLE);
+            Entry { has_line: true, stroke, shape: None, label }
+        });
+        curves.chain(lines).chain(shade).collect()
     }
 
     fn legend_place(&self, entries: &[Entry], frame: Rect, axes: Axes) -> Option<Point> {

@@ -12,14 +12,31 @@ use std::path::Path;
 
 use super::exchange::flush;
 use super::manifest::{Manifest, Owner};
-use super::standing::{Identity, SUMMARY};
+use super::standing::{ALL_ACCESS, Identity, SUMMARY};
 use crate::output::tell;
+use crate::problem::{self, Problem};
 
 /// How an entry gets into the new folder.
 #[derive(Clone, Copy, PartialEq)]
 enum By {
     Link,
     Move,
+}
+
+/// Refuses what could not be moved: a user's folder in the results that we may not write to.
+pub fn check(folder: &Path) -> problem::Result<()> {
+    for name in names(folder).unwrap_or_default() {
+        let inner = folder.join(name);
+        if is_folder(&inner) {
+            if let Err(error) = rustix::fs::access(&inner, ALL_ACCESS) {
+                let what = "could not come along when the results around it are replaced";
+                let hint = "move it away, or write elsewhere: `--results FOLDER`";
+                return Err(Problem::from_error(what, error).in_file(&inner).hint(hint));
+            }
+            check(&inner)?;
+        }
+    }
+    Ok(())
 }
 
 /// Links what is a user's into the new folder. What cannot be linked is moved later.

@@ -176,13 +176,14 @@ pub fn standing(place: &Path, id: &str) -> Result<Option<Ours>> {
         return Err(refused(place, &format!("holds results of another experiment, `{}`", head.id)));
     }
     if let Err(error) = rustix::fs::access(place, ALL_ACCESS) {
-        return Err(Problem::from_error("cannot be replaced", error).in_file(place));
+        let hint = "write elsewhere: `--results FOLDER`";
+        return Err(Problem::from_error("cannot be replaced", error).in_file(place).hint(hint));
     }
     Ok(Some(Ours { folder: place.to_owned(), head, identity: Identity::of(&found) }))
 }
 
 /// What is needed to take files out of a folder.
-const ALL_ACCESS: rustix::fs::Access = rustix::fs::Access::READ_OK
+pub const ALL_ACCESS: rustix::fs::Access = rustix::fs::Access::READ_OK
     .union(rustix::fs::Access::WRITE_OK)
     .union(rustix::fs::Access::EXEC_OK);
 

@@ -90,6 +90,7 @@ impl Claim<'_> {
         self.used("clusters", clusters, at.clusters.is_some())?;
         let prefix = if self.spec.of == Q::Nodes { Allowed } else { Meaningless };
         self.used("group_prefix", prefix, at.group_prefix.is_some())?;
+        self.group_prefix()?;
         if self.is_of_regions() && self.checker.experiment.regions.is_none() {
             return self.refuse("", "is about regions, but there is no [regions]");
         }
@@ -106,6 +107,16 @@ impl Claim<'_> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// A prefix that begins the name of no group would count no nodes.
+    fn group_prefix(&self) -> Result<()> {
+        let Some(prefix) = &self.spec.at.group_prefix else { return Ok(()) };
+        let groups = self.plan.network.groups();
+        if groups.iter().any(|group| group.name.starts_with(prefix.as_str())) {
+            return Ok(());
+        }
+        self.refuse(".where.group_prefix", format!("is \"{prefix}\", with which no group begins"))
     }
 
     fn used(&self, key: &str, used: Use, given: bool) -> Result<()> {
@@ -223,8 +234,11 @@ impl Claim<'_> {
             return self.refuse("", message);
         }
         if spec.trend.is_some() {
+            // How many eigenvalues there are beforehand is known only of all of them together.
+            let one = self.plan.network.n_nodes() < 2;
             return match self.shape() {
-                Shape::Numbers(None | Some(2..)) => Ok(()),
+                Shape::Numbers(None) if !one => Ok(()),
+                Shape::Numbers(Some(2..)) => Ok(()),
                 _ => self.refuse(".trend", "needs two numbers or more to compare"),
             };
         }
@@ -260,6 +274,7 @@ impl Claim<'_> {
             return self.refuse(".equals", format!("contains {number}, but must be finite"));
         }
         match count.filter(|&count| count != numbers.len()) {
+            None if numbers.is_empty() => self.refuse(".equals", "is an empty list"),
             None => Ok(()),
             Some(count) => {
                 let message = format!("has {} values, expected {count}", numbers.len());
@@ -279,6 +294,9 @@ impl Claim<'_> {
         if vectors.iter().flatten().any(|component| !component.is_finite()) {
             return self.refuse(".equals", "has a component that is not finite");
         }
+        if vectors.iter().any(|vector| vector.iter().all(|&component| component == 0.0)) {
+            return self.refuse(".equals", "has a vector of zeros, which has no direction");
+        }
         Ok(())
     }
 
@@ -286,6 +304,10 @@ impl Claim<'_> {
         let mut positions: Vec<usize> = self.equals("a list of positions, such as [2, 1, 3]")?;
         positions.sort_unstable();
         let count = self.spec.at.clusters.as_ref().map_or(0, Vec::len);
+        if count < 2 {
+            return self
+                .refuse(".where.clusters", "has one cluster, but an order needs two or more");
+        }
         if positions.into_iter().eq(1..=count) {
             return Ok(());
         }

@@ -3,6 +3,8 @@
 //! The numbers of bytes are rounded up from runs of 10³ to 10⁶ nodes; they are there to tell a
 //! gigabyte from a hundred, not to be exact.
 
+use std::path::Path;
+
 use dynamics::Observables;
 
 use super::{Checker, Plan, Sweep};
@@ -44,6 +46,8 @@ pub struct Memory(Vec<Part>);
 
 struct Part {
     name: &'static str,
+    /// Key of the experiment file that decides it.
+    key: &'static str,
     bytes: f64,
     /// What would need less.
     hint: &'static str,
@@ -55,15 +59,18 @@ impl Memory {
         let (n, links) = (plan.network.n_nodes() as f64, plan.network.n_links() as f64);
         let mut parts = vec![Part {
             name: "network",
+            key: "network",
             bytes: n * NODE + links * LINK,
             hint: "take a smaller network, or a part of it by `prepare`",
         }];
         let modes = plan.spectrum.most_modes(plan.network.n_nodes()) as f64;
+        let is_dense = plan.spectrum.is_dense(plan.network.n_nodes());
         let dense = DENSE_MATRICES * n * n;
         let leading = (VECTORS_A_MODE * n * modes).min(dense);
         parts.push(Part {
             name: "spectrum",
-            bytes: NUMBER * if modes > 0.5 * n { dense } else { leading },
+            key: "spectrum.modes",
+            bytes: NUMBER * if is_dense { dense } else { leading },
             hint: "set `spectrum.modes` to the number of leading modes you need",
         });
         parts.extend(plan.sweep.iter().map(|sweep| of_sweep(sweep, n)));
@@ -71,6 +78,7 @@ impl Memory {
         if plan.sweep.is_some() && matches!(figure, FigureKind::Matrices | FigureKind::Regions) {
             parts.push(Part {
                 name: "figure",
+                key: "figure.kind",
                 bytes: DRAWN_MATRICES * DRAWN_COLUMNS * NUMBER * n * n,
                 hint: "set `figure.kind` to \"none\"",
             });
@@ -82,22 +90,30 @@ impl Memory {
         self.0.iter().map(|part| part.bytes).sum()
     }
 
-    /// Refuses what the machine does not have.
-    pub fn affordable(&self) -> Result<()> {
-        let Some(available) = available_memory() else { return Ok(()) };
-        if self.total() <= SHARE * available as f64 {
-            return Ok(());
+    /// What is said where the machine does not have so much, and the part that needs the most.
+    fn lacking(&self) -> Option<(String, &Part)> {
+        let available = available_memory()? as f64;
+        if self.total() <= SHARE * available {
+            return None;
         }
-        let largest = self.0.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
-        let problem = Problem::new(format!(
-            "needs about {self} of memory, but no more than {} of the {} that are free here may be taken",
-            gigabytes(SHARE * available as f64),
-            gigabytes(available as f64)
-        ));
-        Err(match largest {
-            Some(part) => problem.hint(part.hint),
-            None => problem,
-        })
+        let message = format!(
+            "needs about {self} of memory, but no more than {} of the {} that are free here may be \
+             taken",
+            gigabytes(SHARE * available),
+            gigabytes(available)
+        );
+        Some((message, self.0.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes))?))
+    }
+
+    /// Refuses what the machine does not have, by the key of what needs the most.
+    pub fn affordable(&self, file: &Path) -> Result<()> {
+        match self.lacking() {
+            None => Ok(()),
+            Some((message, part)) => {
+                let message = format!("asks for too much: the run {message}");
+                Err(Problem::with_key(file, part.key, message).hint(part.hint))
+            }
+        }
     }
 }
 
@@ -116,6 +132,7 @@ fn of_sweep(sweep: &Sweep, n: f64) -> Part {
     let batches = (rayon::current_num_threads() as f64 * LANES).min(runs);
     Part {
         name: "sweep",
+        key: "sweep",
         bytes: ERROR * errors * runs + NUMBER * batches * (SUMS * errors + STATE * n),
         hint: "take fewer `seeds` or fewer values of `epsilon` in [sweep]",
     }
@@ -125,12 +142,15 @@ impl Checker<'_> {
     /// Refuses a file of links that would not fit into memory, by its length.
     pub(super) fn readable(&self, key: &str, n_bytes: u64) -> Result<()> {
         let bytes = A_BYTE_OF_LINKS * n_bytes as f64;
-        let network =
-            Part { name: "network", bytes, hint: "take a part of the network, or another machine" };
-        Memory(vec![network]).affordable().map_err(|problem| {
-            let length = gigabytes(n_bytes as f64);
-            self.problem(key, format!("names a file of {length}, too long: {problem}"))
-        })
+        match network_of(bytes).lacking() {
+            None => Ok(()),
+            Some((message, _)) => {
+                let length = gigabytes(n_bytes as f64);
+                let message = format!("names a file of {length}, which {message}");
+                let hint = "take a part of the network, or a machine with more memory";
+                Err(self.problem(key, message).hint(hint))
+            }
+        }
     }
 
     /// Refuses a network that is too large to be generated: the reason is known before it is tried.
@@ -153,14 +173,19 @@ impl Checker<'_> {
                 }));
             }
         }
-        let network = Part {
-            name: "network",
-            bytes: n_nodes * NODE + n_links.max(0.0) * LINK,
-            hint: "take less",
-        };
-        let memory = Memory(vec![network]);
-        memory.affordable().map_err(|problem| problem.in_file(self.file))
+        let bytes = n_nodes * NODE + n_links.max(0.0) * LINK;
+        match network_of(bytes).lacking() {
+            None => Ok(()),
+            Some((message, _)) => {
+                let hint = "take smaller communities, or smaller probabilities";
+                Err(self.problem(key, message).hint(hint))
+            }
+        }
     }
+}
+
+fn network_of(bytes: f64) -> Memory {
+    Memory(vec![Part { name: "network", key: "network", bytes, hint: "" }])
 }
 
 /// A number of bytes as people say it.

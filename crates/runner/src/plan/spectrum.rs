@@ -54,6 +54,11 @@ impl SpectrumPlan {
         self.request.tolerance
     }
 
+    /// Whether matrices of N × N numbers will be taken.
+    pub fn is_dense(&self, n_nodes: usize) -> bool {
+        matches!(self.request.solver, SolverChoice::Dense) || self.most_modes(n_nodes) > n_nodes / 2
+    }
+
     /// The modes asked for, or by default.
     pub fn wanted(&self) -> ModesSpec {
         self.wanted
@@ -109,7 +114,7 @@ impl Checker<'_> {
             request: Request { modes, solver, tolerance, ..Request::default() },
             wanted,
         };
-        if matches!(wanted, ModesSpec::All | ModesSpec::Leading(_)) {
+        if !matches!(wanted, ModesSpec::UnstableAt(_)) || matches!(solver, SolverChoice::Dense) {
             self.solvable(solver, plan.most_modes(n_nodes), n_nodes)?;
         }
         Ok(plan)

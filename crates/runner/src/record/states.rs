@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::named;
 use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::simulated::Onset;
+use crate::simulated::{End, Seen};
 
 /// Up to this many nodes a summary names the nodes of every cluster.
 const LISTED_NODES: usize = 5000;
@@ -40,7 +40,20 @@ pub struct StateRecord {
     pub labels: Option<Vec<LabelRecord>>,
     /// From which ε on the simulation shows these clusters; none without simulation or clusters.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub simulated_onset: Option<Onset>,
+    pub simulated_onset: Option<End>,
+    /// Up to which ε it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulated_end: Option<End>,
+    /// Runs of the sweep in this range of ε; none without a sweep.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulated_runs: Option<RunsRecord>,
+}
+
+/// Runs of a sweep, and how many of them escaped.
+#[derive(Serialize)]
+pub struct RunsRecord {
+    pub runs: usize,
+    pub escaped: usize,
 }
 
 /// Whether a cluster is exact, and how far it is from that.
@@ -69,17 +82,24 @@ pub struct CoincidenceRecord {
 }
 
 pub fn records(plan: &Plan, findings: &Findings) -> Vec<StateRecord> {
-    let labelled = findings.cascade.iter().zip(&findings.labels);
-    labelled.map(|(state, labels)| record(plan, findings, state, labels)).collect()
+    let labelled = findings.cascade.iter().zip(&findings.labels).enumerate();
+    labelled.map(|(at, (state, labels))| record(plan, findings, (at, state), labels)).collect()
 }
 
-fn record(plan: &Plan, findings: &Findings, state: &State, labels: &StateLabels) -> StateRecord {
+fn record(
+    plan: &Plan,
+    findings: &Findings,
+    (at, state): (usize, &State),
+    labels: &StateLabels,
+) -> StateRecord {
     let is_listed = plan.network.n_nodes() <= LISTED_NODES;
     let clusters = is_listed.then(|| state.clusters.nontrivial());
     let n_alone = labels.count(ClusterKind::Single);
     let n_clusters = labels.labels.len() - n_alone;
     let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
-    let observed = findings.simulated.as_ref().filter(|_| n_clusters > 0 && has_pairs);
+    let seen = clusters.as_ref().filter(|_| n_clusters > 0 && has_pairs);
+    let seen = seen.and_then(|clusters| findings.state_seen(at, clusters));
+    let (simulated_onset, simulated_end) = seen.map(|Seen { onset, end }| (onset, end)).unzip();
     let shared = labels.labels.iter().filter(|label| label.kind != ClusterKind::Single);
     let label = |(label, nodes): (&ClusterLabel, &Vec<usize>)| LabelRecord {
         kind: label.kind.name(),
@@ -104,9 +124,9 @@ fn record(plan: &Plan, findings: &Findings, state: &State, labels: &StateLabels)
         largest_deviation: labels.equitability.largest_deviation(),
         coincidences,
         labels: clusters.as_ref().map(|clusters| shared.zip(clusters).map(label).collect()),
-        simulated_onset: observed
-            .zip(clusters.as_ref())
-            .map(|(simulated, clusters)| simulated.onset(clusters)),
+        simulated_onset,
+        simulated_end,
+        simulated_runs: findings.runs_in(state).map(|[runs, escaped]| RunsRecord { runs, escaped }),
         clusters: clusters.map(|clusters| named(&clusters, plan)),
     }
 }

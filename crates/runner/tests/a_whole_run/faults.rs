@@ -106,7 +106,7 @@ fn an_error_of_the_disk_is_found_before_the_run_or_leaves_older_results_in_place
     let place = with_results();
     let older = place.read("results/tiny/summary.json");
     for fault in
-        ["fsync:error=EIO:when=1", "fsync:error=ENOSPC:when=4", "renameat2:error=EIO:when=2"]
+        ["fsync:error=EIO:when=1", "fsync:error=ENOSPC:when=5", "renameat2:error=EIO:when=2"]
     {
         assert_eq!(run_with(&place, &[fault]), Some(2), "{fault}");
         check_whole(&place);

@@ -5,6 +5,7 @@ mod cascade;
 mod comparison;
 mod faults;
 mod figures;
+mod honest;
 mod odd_networks;
 mod place;
 mod predict;

@@ -2,7 +2,8 @@
 //! only results of the same experiment are replaced.
 
 use std::fs;
-use std::os::unix::fs::symlink;
+use std::fs::Permissions;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -256,4 +257,41 @@ fn whole_folders_that_0_1_0_left_hidden_are_put_in_place_before_anything_else() 
     assert_eq!(place.names("results"), ["tiny"]);
     run(&place, &tiny(), &[]);
     assert_eq!(place.read("results/tiny/notes.txt"), "mine");
+}
+
+/// Runs the tiny experiment as a user who owns the folder but is not root; none if that is not
+/// possible here.
+fn run_as_a_user(place: &Workplace) -> Option<(Option<i32>, String)> {
+    let program = assert_cmd::cargo::cargo_bin!("eigensync").to_str().unwrap();
+    let root = fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
+    let mut command = Command::new(if root { "setpriv" } else { program });
+    if root {
+        command.args(["--reuid=65534", "--clear-groups", program]);
+    }
+    let output = command.args(["run", "tiny.toml"]).current_dir(place.path(".")).output().ok()?;
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    // A program that lies where nobody else may go cannot be tried.
+    (!said.starts_with("setpriv: ")).then_some((output.status.code(), said))
+}
+
+#[test]
+fn a_folder_in_the_results_that_could_not_come_along_is_refused_before_the_run() {
+    let place = Workplace::new();
+    run(&place, &tiny(), &[]);
+    place.write("results/tiny/drafts/one.tex", "years of work");
+    let folder = place.path(".");
+    let owned = Command::new("chown").args(["-R", "65534"]).arg(&folder).status();
+    fs::set_permissions(place.path("results/tiny/drafts"), Permissions::from_mode(0o555)).unwrap();
+    let Some((status, said)) = run_as_a_user(&place).filter(|_| owned.is_ok()) else {
+        println!("skipped: no program can be run as another user here");
+        return;
+    };
+    assert!(said.contains("results/tiny/drafts: could not come along"), "{said}");
+    assert_eq!(status, Some(2), "{said}");
+    assert_eq!(place.read("results/tiny/drafts/one.tex"), "years of work");
+    assert_eq!(place.names("results"), ["tiny"]);
+    fs::set_permissions(place.path("results/tiny/drafts"), Permissions::from_mode(0o755)).unwrap();
+    let (status, said) = run_as_a_user(&place).unwrap();
+    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(place.read("results/tiny/drafts/one.tex"), "years of work");
 }

@@ -1,0 +1,242 @@
+//! The replicas of a sweep: those that the journal has are taken over, those of which it has a state go
+//! on from it, and every other begins at its initial state. Which of the three, no bit depends on.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use dynamics::{
+    DynamicsError, Next, Observer, Outcome, Progress, Replica, Run, Schedule, Simulation, Snapshot,
+    Start,
+};
+
+use super::matrix;
+use crate::journal::{Journal, Key, Kind};
+use crate::plan::{Plan, Sweep};
+use crate::problem::{Problem, Result, plain};
+use crate::signals;
+use crate::simulated::Simulated;
+use crate::step_effect::{Probe, StepEffect};
+use crate::warning::Warnings;
+
+/// How long a batch runs before it leaves its states, and between one time and the next: what a kill
+/// costs, and long against the time that writing takes.
+const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
+
+/// Simulates the sweep of a plan.
+pub fn simulate(
+    plan: &Plan,
+    sweep: &Sweep,
+    journal: &Journal,
+    warnings: &mut Warnings,
+) -> Result<Simulated> {
+    let simulation = simulation(plan, sweep, sweep.schedule);
+    let replicas = sweep.replicas();
+    let shared = (matrix(plan), plan.node, sweep.method, sweep.schedule);
+    let shared = Key::of(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
+    let key =
+        |replica: &Replica| Key::of(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
+    let keys: Vec<Key> = replicas.iter().map(key).collect();
+    journal.expect_replicas(replicas.len());
+    let take = |key: &Key| journal.take::<Outcome>(Kind::Replica, key);
+    let mut outcomes: Vec<Option<Outcome>> = keys.iter().map(take).collect();
+    let left: Vec<usize> = (0..replicas.len()).filter(|&at| outcomes[at].is_none()).collect();
+    let from = |key: &Key| journal.snapshot(key).filter(|state| simulation.can_start_from(state));
+    let start = |&at: &usize| Start { replica: replicas[at], from: from(&keys[at]) };
+    let starts: Vec<Start> = left.iter().map(start).collect();
+    journal.tell_taken();
+    let ran = plan.stages.resumed("sweep", sweep.steps(), steps_done(sweep, &starts), |progress| {
+        let following =
+            Following::new(journal, left.iter().map(|&at| keys[at]).collect(), progress);
+        signals::while_running(|| {
+            let ran = simulation.run_observed(starts, &following);
+            if ran == Err(DynamicsError::Cancelled) {
+                signals::leave();
+            }
+            ran
+        })
+    });
+    let ran = ran.map_err(|error| not_simulated(plan, &error))?;
+    for (at, run) in left.into_iter().zip(ran) {
+        outcomes[at] = Some(run.outcome);
+    }
+    let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
+        replica,
+        outcome: outcome.expect("every replica was taken over or has run"),
+    };
+    let runs: Vec<Run> = replicas.into_iter().zip(outcomes).map(run).collect();
+    warn_of_failures(&runs, warnings);
+    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+}
+
+/// What the step of the integrator does at some couplings of a sweep, all of it one piece of work.
+pub fn effects_of_step(
+    plan: &Plan,
+    sweep: &Sweep,
+    simulated: &Simulated,
+    journal: &Journal,
+) -> Result<Vec<StepEffect>> {
+    let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
+    let bound = |replica: &Replica| {
+        simulated.position(replica.epsilon).map_or(0.0, |position| simulated.bound(position))
+    };
+    let replicas: Vec<(f64, u64, f64)> =
+        probe.replicas.iter().map(|run| (run.epsilon, run.seed, bound(run))).collect();
+    let of = (matrix(plan), plan.node, sweep.method, probe.schedules, replicas);
+    let key = Key::of(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
+    let effects = journal.once((Kind::StepEffects, key), || {
+        let at = |schedule: Schedule| {
+            let steps = probe.replicas.len() as u64 * schedule.steps();
+            let simulation = simulation(plan, sweep, schedule);
+            let run = |progress: Progress<'_>| simulation.run(&probe.replicas, progress);
+            plan.stages.measured("half step", steps, run)
+        };
+        let [at_step, at_half] = probe.schedules.map(at);
+        Ok(probe.effects(simulated, [&at_step?, &at_half?]))
+    });
+    effects.map_err(|error| not_simulated(plan, &error))
+}
+
+fn simulation<'a>(plan: &'a Plan, sweep: &Sweep, schedule: Schedule) -> Simulation<'a> {
+    Simulation {
+        model: plan.node.model,
+        coupling: plan.node.coupling,
+        matrix: plan.matrix.matrix(),
+        method: sweep.method,
+        schedule,
+        observables: sweep.observables.clone(),
+        kick: sweep.kick,
+        instruction_set: plan.msf.instruction_set,
+    }
+}
+
+fn not_simulated(plan: &Plan, error: &DynamicsError) -> Problem {
+    Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
+}
+
+/// Steps of a sweep that an earlier run has done.
+fn steps_done(sweep: &Sweep, starts: &[Start]) -> u64 {
+    let stride = u64::from(sweep.schedule.stride);
+    let samples = |start: &Start| start.from.as_ref().map_or(0, Snapshot::sample);
+    let to_do: u64 =
+        starts.iter().map(|start| sweep.schedule.steps() - samples(start) * stride).sum();
+    sweep.steps() - to_do
+}
+
+/// Couplings at which the integrator gave up, each with its seeds.
+fn warn_of_failures(runs: &[Run], warnings: &mut Warnings) {
+    let mut at: BTreeMap<u64, Vec<(&Run, f64, &str)>> = BTreeMap::new();
+    for run in runs {
+        if let Outcome::Failed { time, reason } = &run.outcome {
+            at.entry(run.replica.epsilon.to_bits()).or_default().push((run, *time, reason));
+        }
+    }
+    for failed in at.into_values() {
+        let (run, time, reason) = failed[0];
+        let seeds: Vec<String> =
+            failed.iter().map(|(run, ..)| run.replica.seed.to_string()).collect();
+        warnings.add(
+            "simulations",
+            format!(
+                "at epsilon = {} the integrator gave up with seed{} {}, first at time {}: {}; a \
+                 looser `sweep.tolerance` or weaker coupling is within its reach",
+                plain(run.replica.epsilon),
+                if seeds.len() == 1 { "" } else { "s" },
+                seeds.join(", "),
+                plain(time),
+                reason
+            ),
+        );
+    }
+}
+
+/// Keeps what replicas leave, when they end and on the way.
+struct Following<'a> {
+    journal: &'a Journal,
+    keys: Vec<Key>,
+    progress: Progress<'a>,
+    started: Instant,
+    /// Of each replica, what is known of the batch of which it is the first.
+    batches: Vec<Batch>,
+}
+
+#[derive(Default)]
+struct Batch {
+    samples: AtomicU64,
+    /// Milliseconds from the start to when it began or last left its states; 0 before, [`LEFT`] when
+    /// it has left them for good.
+    looked: AtomicU64,
+}
+
+const LEFT: u64 = u64::MAX;
+
+/// Samples from one look at the clock to the next, which costs as much as a small network's step.
+const BETWEEN_LOOKS: u64 = 16;
+
+impl<'a> Following<'a> {
+    fn new(journal: &'a Journal, keys: Vec<Key>, progress: Progress<'a>) -> Self {
+        let batches = keys.iter().map(|_| Batch::default()).collect();
+        Self { journal, keys, progress, started: Instant::now(), batches }
+    }
+
+    fn milliseconds(&self) -> u64 {
+        u64::try_from(self.started.elapsed().as_millis()).unwrap_or(LEFT - 1) + 1
+    }
+}
+
+impl Observer for Following<'_> {
+    fn advanced(&self, replicas: &[usize], steps: u64) -> Next {
+        (self.progress)(steps);
+        let Batch { samples, looked } = &self.batches[replicas[0]];
+        if signals::is_stopping() {
+            // One that has just begun has nothing to leave.
+            let has_left = matches!(looked.swap(LEFT, Ordering::Relaxed), 0 | LEFT);
+            return if has_left { Next::Stop } else { Next::Snapshot };
+        }
+        if !samples.fetch_add(1, Ordering::Relaxed).is_multiple_of(BETWEEN_LOOKS) {
+            return Next::GoOn;
+        }
+        let now = self.milliseconds();
+        match looked.load(Ordering::Relaxed) {
+            0 => looked.store(now, Ordering::Relaxed),
+            before if u128::from(now - before) >= BETWEEN_SNAPSHOTS.as_millis() => {
+                looked.store(now, Ordering::Relaxed);
+                return Next::Snapshot;
+            }
+            _ => {}
+        }
+        Next::GoOn
+    }
+
+    fn finished(&self, replica: usize, outcome: &Outcome) {
+        self.journal.keep(Kind::Replica, &self.keys[replica], outcome);
+        self.journal.drop_snapshot(&self.keys[replica]);
+    }
+
+    fn snapshot(&self, replica: usize, snapshot: Snapshot) {
+        self.journal.keep_snapshot(&self.keys[replica], &snapshot);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_batch_leaves_its_states_once_it_has_run_for_a_minute() {
+        let folder = tempfile::tempdir().unwrap();
+        let journal = Journal::open(folder.path(), "tiny", false).unwrap();
+        let keys = (0..3).map(|k| Key::of(Kind::Replica, &k)).collect();
+        let mut following = Following::new(&journal, keys, &|_| ());
+        let snapshots = |following: &Following<'_>, batch: &[usize]| {
+            let samples = 0..10 * BETWEEN_LOOKS;
+            samples.filter(|_| following.advanced(batch, 10) == Next::Snapshot).count()
+        };
+        assert_eq!(snapshots(&following, &[0, 2]), 0);
+        // A minute passes.
+        following.started = following.started.checked_sub(BETWEEN_SNAPSHOTS).unwrap();
+        assert_eq!(snapshots(&following, &[1]), 0, "another has just begun");
+        assert_eq!(snapshots(&following, &[0, 2]), 1);
+        assert_eq!(snapshots(&following, &[1]), 0);
+    }
+}
