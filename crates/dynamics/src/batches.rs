@@ -1,5 +1,7 @@
 //! Replicas cut into batches of lanes, and a batch run from its initial states to its end.
 
+use std::cmp::Reverse;
+
 use crate::instruction_set::Work;
 use crate::kernel::{Network, WIDTH};
 use crate::kicks::Kicks;
@@ -18,9 +20,10 @@ pub(crate) fn sizes(n_replicas: usize, n_threads: usize) -> Vec<usize> {
     (0..n_threads).rev().flat_map(|thread| cheapest(share(thread))).collect()
 }
 
-/// The batches of all replicas. Those of one batch go on from the same sample, fresh ones from none.
+/// The batches of all replicas, the furthest first. Those of one batch go on from the same sample,
+/// fresh ones from none.
 pub(crate) fn of(mut starts: Vec<Numbered>, n_threads: usize) -> Vec<Vec<Numbered>> {
-    starts.sort_by_key(|start| start.1.sample());
+    starts.sort_by_key(|start| Reverse(start.1.sample()));
     let same = starts.chunk_by(|a, b| a.1.sample() == b.1.sample());
     let sizes: Vec<usize> = same.flat_map(|same| sizes(same.len(), n_threads)).collect();
     let mut left = starts.into_iter();
@@ -179,6 +182,7 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> InLanes<O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Replica;
 
     fn cost(sizes: &[usize]) -> f64 {
         let of = |&size: &usize| {
@@ -194,6 +198,17 @@ mod tests {
             assert_eq!(sizes.iter().sum::<usize>(), n_replicas);
             assert!(sizes.iter().all(|size| (1..=WIDTH).contains(size)), "{sizes:?}");
         }
+    }
+
+    #[test]
+    fn replicas_that_have_begun_are_ended_before_others_begin() {
+        let replica = Replica { epsilon: 0.0, seed: 1 };
+        let snapshot = |sample| Snapshot { sample, state: Vec::new(), sums: Vec::new() };
+        let start = |sample: u64| Start { replica, from: (sample > 0).then(|| snapshot(sample)) };
+        let starts = [0, 7, 0, 9, 7].into_iter().map(start).enumerate().collect();
+        let numbers = |batch: Vec<Numbered>| batch.into_iter().map(|start| start.0).collect();
+        let batches: Vec<Vec<usize>> = of(starts, 1).into_iter().map(numbers).collect();
+        assert_eq!(batches, [vec![3], vec![1, 4], vec![0, 2]]);
     }
 
     #[test]
