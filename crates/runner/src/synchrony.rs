@@ -91,8 +91,8 @@ impl Evidence<'_> {
     }
 
     fn slowest(&self) -> Option<f64> {
-        let spectrum = self.known.spectrum;
-        spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < -spectrum.tolerance)
+        // Zero modes are zero exactly.
+        self.known.spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0)
     }
 
     fn eigenratio(&self) -> Option<f64> {
