@@ -4,7 +4,7 @@ use clustering::{
     CascadeTree, ClusteringError, Partition, State, StateLabels, hold_against_links,
     merge_equal_clusters,
 };
-use msf::{CriticalCoupling, MasterStability};
+use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
@@ -68,8 +68,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let request = plan.spectrum.request(stable, n_nodes);
     let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
-    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, spectrum.tolerance);
-    let fastest = fastest(plan, &spectrum, &mut warnings);
+    // Zero modes are zero exactly, and no others are.
+    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
+    let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
         warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
@@ -135,9 +136,17 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
 }
 
 /// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
-fn fastest(plan: &Plan, spectrum: &Spectrum, warnings: &mut Warnings) -> Option<f64> {
+fn fastest(
+    plan: &Plan,
+    spectrum: &Spectrum,
+    stable: &StableRegion,
+    warnings: &mut Warnings,
+) -> Option<f64> {
     if spectrum.eigenvalues.len() == plan.network.n_nodes() {
         return spectrum.eigenvalues.last().copied();
+    }
+    if stable.is_unbounded() {
+        return None;
     }
     match spectra::smallest_eigenvalue(&plan.matrix) {
         Ok(lambda) => Some(lambda),

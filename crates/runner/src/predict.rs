@@ -228,10 +228,15 @@ fn oscillator(text: &str) -> Result<(Value, Model)> {
     let mut values = Table::new();
     for entry in parameters.split(',').filter(|entry| !entry.is_empty()) {
         let value = entry.split_once('=').and_then(|(key, value)| {
-            Some((key.trim().to_owned(), value.trim().parse::<f64>().ok()?))
+            let value = value.trim().parse::<f64>().ok()?;
+            Some((key.trim().to_owned(), value))
         });
-        let Some((key, value)) = value else {
-            let message = format!("`{entry}` is no parameter, expected one such as r=35");
+        // With larger ones orbits leave the bounds within which they count as finite.
+        let Some((key, value)) = value.filter(|(_, value)| value.abs() <= 1e6) else {
+            let message = format!(
+                "`--oscillator {text}`: `{entry}` is no parameter, expected one such as r=35, of a \
+                 size up to 1e6"
+            );
             return Err(Problem::new(message));
         };
         values.insert(key, value.into());

@@ -91,8 +91,8 @@ impl Evidence<'_> {
     }
 
     fn slowest(&self) -> Option<f64> {
-        let spectrum = self.known.spectrum;
-        spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < -spectrum.tolerance)
+        // Zero modes are zero exactly.
+        self.known.spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0)
     }
 
     fn eigenratio(&self) -> Option<f64> {
@@ -110,7 +110,7 @@ impl Evidence<'_> {
             return never(format!("the network has {} components", self.n_components));
         }
         if !ranges.is_empty() {
-            let ranges: Vec<String> = ranges.iter().map(EpsilonRange::in_words).collect();
+            let ranges: Vec<String> = ranges.iter().map(|range| range.in_words(at_rest)).collect();
             let rest = if at_rest { ", since each comes to rest by itself" } else { "" };
             return format!("all nodes synchronise for {}{rest}", ranges.join(" and for "));
         }
@@ -130,7 +130,7 @@ impl Evidence<'_> {
 }
 
 impl EpsilonRange {
-    fn in_words(&self) -> String {
+    fn in_words(&self, at_rest: bool) -> String {
         let end = |value: f64, error: Option<f64>| match error {
             Some(error) if error > 0.0 => {
                 format!("{} (± {})", four_digits(value), two_digits(error))
@@ -139,7 +139,8 @@ impl EpsilonRange {
         };
         let from = end(self.from, self.from_standard_error);
         match (self.from > 0.0, self.to) {
-            (false, None) => "every ε".into(),
+            (false, None) if at_rest => "every ε".into(),
+            (false, None) => "every ε > 0".into(),
             (true, None) => format!("ε > {from}"),
             (false, Some(to)) => format!("ε < {}", end(to, self.to_standard_error)),
             (true, Some(to)) => format!("{from} < ε < {}", end(to, self.to_standard_error)),
@@ -194,6 +195,8 @@ mod tests {
         assert_eq!(verdict(3, &PATH, window), "all nodes synchronise for 1 < ε < 1.5");
         let unbounded = vec![Interval::known(8.0, None)];
         assert_eq!(verdict(3, &PATH, unbounded), "all nodes synchronise for ε > 8");
+        let periodic = vec![Interval::known(0.0, None)];
+        assert_eq!(verdict(3, &PATH, periodic), "all nodes synchronise for every ε > 0");
     }
 
     #[test]

@@ -193,8 +193,7 @@ pub fn four_digits(number: f64) -> String {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         return format!("{number}");
     }
-    let digits = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
-    format!("{digits}")
+    written(format!("{number:.3e}").parse::<f64>().unwrap_or(number))
 }
 
 /// A number with three significant digits.
@@ -208,8 +207,16 @@ pub fn two_digits(number: f64) -> String {
     if number != 0.0 && number.abs() < 1e-5 {
         return format!("{number:.1e}");
     }
-    let digits = format!("{number:.1e}").parse::<f64>().unwrap_or(number);
-    format!("{digits}")
+    written(format!("{number:.1e}").parse::<f64>().unwrap_or(number))
+}
+
+/// A number in full, unless it is so large that nobody would count its zeros.
+fn written(number: f64) -> String {
+    if number.is_finite() && number.abs() >= 1e15 {
+        format!("{number:e}")
+    } else {
+        format!("{number}")
+    }
 }
 
 #[cfg(test)]
@@ -225,5 +232,6 @@ mod tests {
         assert_eq!(readable(&json!([["1", "2"], ["3", "4"]])), "{1,2} {3,4}");
         assert_eq!(readable(&json!([])), "none");
         assert_eq!(readable(&json!(17865.0)), "17865");
+        assert_eq!([four_digits(1e300), two_digits(1.23e300)], ["1e300", "1.2e300"]);
     }
 }

@@ -47,7 +47,7 @@ pub(crate) fn settle(
         let next = pairs.values.get(n_slow).map_or(grouping, |next| next.abs());
         let slow = Slow { w, next };
         let mut found = Eigenpairs::default();
-        slow.resolve(span, n_zero, &mut found, &mut settled)?;
+        slow.resolve(&span, n_zero, &mut found, &mut settled)?;
         pairs.values.splice(n_zero..n_slow, found.values);
         pairs.vectors.splice(n_zero..n_slow, found.vectors);
     }
@@ -91,12 +91,12 @@ impl Slow<'_> {
     /// Finds the modes of the span of a basis, the first of them mode `first`, and their eigenspaces.
     fn resolve(
         &self,
-        basis: Vec<Vec<f64>>,
+        basis: &[Vec<f64>],
         first: usize,
         found: &mut Eigenpairs,
         spaces: &mut Vec<Range<usize>>,
     ) -> Result<(), SpectraError> {
-        let Eigenpairs { values, vectors } = self.ritz(&basis)?;
+        let Eigenpairs { values, vectors } = self.ritz(basis)?;
         let largest = -values[values.len() - 1];
         let is_lost = |value: &&f64| -**value <= RESOLVED * largest;
         let n_lost = values.iter().take_while(is_lost).count();
@@ -105,7 +105,7 @@ impl Slow<'_> {
         // All are lost only where nothing differs at all.
         if 0 < n_lost && n_lost < values.len() {
             let rest = vectors.split_off(n_lost);
-            self.resolve(vectors, first, found, spaces)?;
+            self.resolve(&vectors, first, found, spaces)?;
             (values, vectors) = (values.split_off(n_lost), rest);
             start += n_lost;
         }

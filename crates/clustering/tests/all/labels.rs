@@ -238,8 +238,9 @@ fn equal_states_of_exact_clusters_stay_equal_and_those_of_the_nine_nodes_part() 
         };
         n_shared += state.cells.nontrivial().len();
         let apart = parted(&found.w, &state.cells, 0.5);
-        // Rounding grows by e^{Λ t}, with Λ about 1 and t = 10, where such clusters are unstable.
-        assert!(apart < 1e-8, "seed {seed}: {apart:e} apart");
+        // Rounding, 1e-15 of components up to 20, grows where such clusters are unstable: at a rate of
+        // about 1 on average, and of less than 2 over these ten units of time.
+        assert!(apart < 1e-5, "seed {seed}: {apart:e} apart");
     }
     assert!(n_shared > 10, "{n_shared}");
     let found = by_jacobi(NINE_NODES, ClusterRule::Exact);

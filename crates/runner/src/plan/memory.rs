@@ -126,8 +126,9 @@ impl std::fmt::Display for Memory {
 }
 
 fn of_sweep(sweep: &Sweep, n: f64) -> Part {
-    let Observables { pairs, .. } = sweep.observables;
-    let errors = if pairs { 0.5 * n * (n - 1.0) } else { 2.0 * n };
+    let Observables { pairs, reference, .. } = sweep.observables;
+    let of_pairs = if pairs { 0.5 * n * (n - 1.0) } else { 0.0 };
+    let errors = of_pairs + reference.map_or(0.0, |_| n);
     let runs = sweep.epsilon.len() as f64 * sweep.seeds.len() as f64;
     let batches = (rayon::current_num_threads() as f64 * LANES).min(runs);
     Part {

@@ -82,7 +82,7 @@ impl Checker<'_> {
         let &Step { key, about, step, sigma, reached_by, instead } = step;
         let way_out = || match steps.sound_step(sigma, step) {
             Some(shorter) => format!("take a step of {} or less, {instead}", rounded_down(shorter)),
-            None => instead.to_owned(),
+            None => instead.trim_start_matches("or ").to_owned(),
         };
         let at = format!("at sigma = {}, {reached_by}", four_digits(sigma));
         match steps.judge(sigma, step) {

@@ -180,7 +180,7 @@ fn a_sparse_file_longer_than_memory_is_refused_before_it_is_read() {
 }
 
 #[test]
-fn check_answers_within_seconds_about_a_large_network_that_is_one_cluster() {
+fn check_tells_the_time_of_a_large_network_that_is_one_cluster_without_taking_it() {
     let place = Workplace::new();
     let links: String = (0..200_000).map(|i| format!("{i} {}\n", i + 1)).collect();
     place.write("networks/six-node.edges", links);
@@ -190,7 +190,8 @@ fn check_answers_within_seconds_about_a_large_network_that_is_one_cluster() {
         experiment.and("[spectrum]\nmodes = 4").without_table("claims.integers").0,
     );
     let mut command = place.eigensync(&["check", "tiny.toml"]);
-    let output = command.timeout(Duration::from_secs(10)).output().unwrap();
+    // Three seconds where nothing else runs.
+    let output = command.timeout(Duration::from_secs(60)).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{said}");
     // Each sample compares 2·10¹⁰ pairs: days, as the estimate must say.

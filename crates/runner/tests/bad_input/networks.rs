@@ -96,11 +96,11 @@ fn modes_that_a_network_does_not_have_are_refused() {
         check_refused(&tiny().and(&spectrum), &["`spectrum.modes`", expected]);
     };
     modes("0", "is 0, but must be 1 or more");
-    modes("-1", "must be \"all\", a whole number or { unstable_at = … }");
-    modes("2.5", "must be \"all\", a whole number or { unstable_at = … }");
+    modes("-1", "must be \"auto\", \"all\", a whole number or { unstable_at = … }");
+    modes("2.5", "must be \"auto\", \"all\", a whole number or { unstable_at = … }");
     modes(
         "\"some\"",
-        "is the text \"some\", but must be \"all\", a whole number or { unstable_at = … }",
+        "is the text \"some\", but must be \"auto\", \"all\", a whole number or { unstable_at = … }",
     );
     check_refused(
         &tiny().and("[figure]\nmark_modes = [7]"),
@@ -123,7 +123,8 @@ fn all_modes_of_a_network_too_large_for_the_dense_solver_are_refused() {
     let nodes: String = (1..=50_001).map(|node| format!("{node}\n")).collect();
     let place = Workplace::new();
     place.write("networks/six-node.edges", nodes);
-    place.write("tiny.toml", tiny().without_table("sweep").0);
+    let all = tiny().without_table("sweep").and("[spectrum]\nmodes = \"all\"");
+    place.write("tiny.toml", all.0);
     let answer = place.answer(&["run", "tiny.toml"]);
     let expected = ["`spectrum.modes` asks for 50001 modes", "the most is 50000 nodes", "leading"];
     check_answer(&place, answer, "tiny.toml", &expected);
