@@ -212,7 +212,7 @@ impl Walk<'_> {
         let key = error_key(kind)?;
         let is_unrefined =
             |side: &&Map<String, Value>| side.get("refined") == Some(&Value::Bool(false));
-        if siblings.iter().any(|side| is_unrefined(&side)) {
+        if siblings.iter().any(is_unrefined) {
             return Some("the zero of Λ that it follows from could not be refined".into());
         }
         let [golden, own] =
