@@ -171,43 +171,20 @@ fn averages_shorter_than_the_slow_time_are_warned_of() {
     assert!(!answer.stderr.contains("`sweep.average` is"), "{}", answer.stderr);
 }
 
-/// Ten Hindmarsh–Rose neurons on a ring, strongly coupled: where a neuron waits, its own fastest rate is
-/// about 16 and the coupling adds 4 ε, and RK4 holds no rate above 2.785 / h.
-fn ten_neurons(step: &str) -> (Toml, String) {
-    let experiment = tiny()
-        .without_table("oscillator.lorenz")
-        .and("[oscillator.hindmarsh_rose]")
-        .set("coupling.to", "\"x\"")
-        .set("msf.sigma", "{ from = 0.0, to = 3.0, points = 5 }")
-        .set("msf.average", "1000")
-        .set("msf.transient", "300")
-        .set("msf.relative_error", "0.5")
-        .set("sweep.epsilon", "[1.0, 4.0]")
-        .set("sweep.step", step)
-        .set("sweep.transient", "1000")
-        .set("sweep.average", "1000")
-        .set("sweep.synchronised_below", "0.01")
-        .without("sweep.error_to")
-        .set("sweep.clusters", "[[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]]")
-        .without_table("claims.integers");
-    (experiment, (1..=10).map(|i| format!("{i} {}\n", i % 10 + 1)).collect())
-}
-
 #[test]
-fn errors_that_the_step_makes_too_large_are_noticed() {
-    let (experiment, ring) = ten_neurons("0.1");
-    let (place, answer) = run(&experiment, &ring, 0);
-    check_warned(
-        &place,
-        &answer,
-        "simulations_step_effect",
-        "at epsilon = 4 the step of 0.1 changes",
-    );
+fn what_the_step_does_to_errors_is_estimated_at_two_couplings() {
+    let experiment = tiny().set("sweep.average", "200").set("sweep.epsilon", "[1.0, 2.0, 5.0]");
+    let (place, answer) = run(&experiment, SIX_NODES, 0);
     let effects = summary(&place)["simulations_step_effect"].clone();
-    assert!(effects[1]["log_ratio"].as_f64().unwrap() > 9f64.ln(), "{effects}");
-    let (experiment, ring) = ten_neurons("0.04");
-    let (_, answer) = run(&experiment, &ring, 0);
-    assert!(!answer.stderr.contains("the step of"), "{}", answer.stderr);
+    let epsilon = |at: usize| effects[at]["epsilon"].as_f64();
+    assert_eq!([epsilon(0), epsilon(1)], [Some(2.0), Some(5.0)], "{effects}");
+    for effect in effects.as_array().unwrap() {
+        assert_eq!(effect["n_seeds"], 6, "{effect}");
+        let [ratio, error] =
+            ["log_ratio", "standard_error"].map(|key| effect[key].as_f64().unwrap().abs());
+        assert!(ratio < 5.0 * error, "a step of 0.01 is short for Lorenz: {effect}");
+    }
+    assert!(!answer.stderr.contains("changes what is simulated"), "{}", answer.stderr);
 }
 
 #[test]
