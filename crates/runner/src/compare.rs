@@ -211,8 +211,8 @@ impl Walk<'_> {
     ) -> Option<String> {
         let key = error_key(kind)?;
         let is_unrefined =
-            |side: &&Map<String, Value>| side.get("refined") == Some(&Value::Bool(false));
-        if siblings.iter().any(is_unrefined) {
+            |side: &Map<String, Value>| side.get("refined") == Some(&Value::Bool(false));
+        if siblings.into_iter().any(is_unrefined) {
             return Some("the zero of Λ that it follows from could not be refined".into());
         }
         let [golden, own] =
