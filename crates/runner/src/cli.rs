@@ -186,9 +186,12 @@ fn run_files(
         let planned = plan.stages.total();
         let took = || planned + started.elapsed();
         let journal = Journal::open(place.unfinished(), &plan.id, fresh)?;
+        // It outlives a failure, so that it is the journal that says whether there is work to keep.
+        let mut place = Some(place);
         let done = || {
             let found = findings::find(plan, &mut curves, &journal)?;
             let claims = claims::judge(plan, &found)?;
+            let place = place.take().expect("results are written once");
             let place = results::write(plan, &found, claims.clone(), took, place)?;
             Ok((found, claims, place))
         };

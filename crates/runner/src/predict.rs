@@ -93,10 +93,14 @@ pub fn run(args: &Args) -> Result<()> {
     let made_from = ("predict", &*args.network);
     let place = Place::reserve(&args.results, &id, made_from, args.quick)?;
     let journal = Journal::open(place.unfinished(), &id, args.fresh)?;
+    let origin = place.origin().clone();
+    // It outlives a failure, so that it is the journal that says whether there is work to keep.
+    let mut place = Some(place);
     let (plan, found, place) = journal.until(|| {
-        let plan = plan(args, document, &file, (&place, stages, &journal))?;
+        let plan = plan(args, document, &file, (&origin.file, stages, &journal))?;
         let found = findings::find(&plan, &mut Curves::default(), &journal)
             .map_err(|problem| problem.renamed(&file, &args.network))?;
+        let place = place.take().expect("results are written once");
         let place = results::write(&plan, &found, Vec::new(), || started.elapsed(), place)?;
         Ok((plan, found, place))
     })?;
@@ -111,7 +115,7 @@ fn plan(
     args: &Args,
     mut document: Table,
     file: &Path,
-    (place, stages, journal): (&Place, Stages, &Journal),
+    (origin, stages, journal): (&Path, Stages, &Journal),
 ) -> Result<Plan> {
     let sigma = table([
         ("from", 0.0.into()),
@@ -121,7 +125,7 @@ fn plan(
     document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
     let mut plan = plan::of_text(&text(&document)?, file, args.quick, stages)
         .map_err(|problem| problem.renamed(file, &args.network))?;
-    keep(&mut plan, document, &place.origin().file)?;
+    keep(&mut plan, document, origin)?;
     Ok(plan)
 }
 

@@ -112,10 +112,10 @@ fn tables_have_a_column_for_each_quantity_and_a_row_for_each_point() {
     check(
         "cascade",
         "cluster parent tree nodes first_node modes epsilon_from epsilon_to critical_coupling kind \
-         spread deviation",
+         spread deviation modes_to exceeds_threshold holds_exact",
         5,
     );
-    check("clusters", "tree node cluster alone_below", 6);
+    check("clusters", "tree node cluster alone_below exact_with", 6);
     check(
         "sweep",
         "epsilon seed outcome error_1_to_2 error_2_to_2 error_3_to_2 error_4_to_2 error_5_to_2 \
