@@ -166,7 +166,7 @@ fn of(
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
     let mut plan = Plan {
-        spectrum: checker.spectrum(network.n_nodes())?,
+        spectrum: checker.spectrum(network.n_nodes(), n_components)?,
         msf: checker.msf()?,
         rule: checker.rule(network.n_nodes())?,
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node)).transpose()?,

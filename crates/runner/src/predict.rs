@@ -43,7 +43,7 @@ pub struct Args {
     matrix: MatrixKind,
     /// Modes to compute: `all`, or how many leading ones; the cascade reaches down to where the last of
     /// them becomes unstable. `auto` computes all where the stable set has an upper end and the network
-    /// has up to 5000 nodes, else 20
+    /// has up to 5000 nodes, else 20 and a zero mode for each further component
     #[arg(long, value_name = "M", default_value = "auto", value_parser = modes)]
     modes: ModesSpec,
     /// Instead of a number of modes: all that are unstable at this coupling strength, so that the

@@ -17,13 +17,18 @@ const LARGE_TOLERANCE: f64 = 1e-10;
 /// Up to this many nodes all modes are computed where nobody says how many: half a minute and 1 GB.
 const ALL_MODES: usize = 5000;
 
-/// Leading modes where nobody says how many, and all are not needed or too many.
+/// Leading modes where nobody says how many, and all are not needed or too many, beyond one zero mode
+/// for each component.
 const LEADING_MODES: usize = 20;
+/// Zero modes beyond which the network must be prepared, or the number of modes be said.
+const MOST_ZERO_MODES: usize = 1000;
 
 /// The modes to compute.
 pub struct SpectrumPlan {
     request: Request,
     wanted: ModesSpec,
+    /// Where a few will do and nobody says how many.
+    leading: usize,
 }
 
 impl SpectrumPlan {
@@ -42,7 +47,7 @@ impl SpectrumPlan {
             }
             (ModesSpec::UnstableAt(_) | ModesSpec::Auto, _) => {
                 let few_will_do = stable.is_unbounded() || n_nodes > ALL_MODES;
-                if few_will_do { Modes::Leading(LEADING_MODES.min(n_nodes)) } else { Modes::All }
+                if few_will_do { Modes::Leading(self.leading) } else { Modes::All }
             }
             (ModesSpec::All | ModesSpec::Leading(_), _) => self.request.modes,
         };
@@ -69,14 +74,14 @@ impl SpectrumPlan {
         match (self.wanted, self.request.modes) {
             (ModesSpec::Leading(_), Modes::Leading(modes)) => modes,
             (ModesSpec::UnstableAt(_), _) => self.request.max_modes.min(n_nodes),
-            (ModesSpec::Auto, _) if n_nodes > ALL_MODES => LEADING_MODES,
+            (ModesSpec::Auto, _) if n_nodes > ALL_MODES => self.leading,
             _ => n_nodes,
         }
     }
 }
 
 impl Checker<'_> {
-    pub(super) fn spectrum(&self, n_nodes: usize) -> Result<SpectrumPlan> {
+    pub(super) fn spectrum(&self, n_nodes: usize, n_components: usize) -> Result<SpectrumPlan> {
         let spec = &self.experiment.spectrum;
         let by_size = if n_nodes > ALL_MODES { ModesSpec::Auto } else { ModesSpec::All };
         let wanted = spec.modes.unwrap_or(by_size);
@@ -110,9 +115,11 @@ impl Checker<'_> {
         let small = Request::default().tolerance;
         let by_size = if n_nodes > ARPACK_NODES { LARGE_TOLERANCE } else { small };
         let tolerance = spec.tolerance.unwrap_or(by_size);
+        let zero_modes = if n_components > MOST_ZERO_MODES { 0 } else { n_components - 1 };
         let plan = SpectrumPlan {
             request: Request { modes, solver, tolerance, ..Request::default() },
             wanted,
+            leading: (LEADING_MODES + zero_modes).min(n_nodes),
         };
         if !matches!(wanted, ModesSpec::UnstableAt(_)) || matches!(solver, SolverChoice::Dense) {
             self.solvable(solver, plan.most_modes(n_nodes), n_nodes)?;

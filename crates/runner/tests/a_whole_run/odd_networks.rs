@@ -98,6 +98,20 @@ fn modes_that_are_all_zero_are_refused_with_the_number_of_components() {
 }
 
 #[test]
+fn more_components_than_modes_by_default_are_predicted_all_the_same() {
+    // 24 paths of three nodes: λ = 0, −1 and −3 in each.
+    let path = |k: usize| format!("{k}a {k}b\n{k}b {k}c\n");
+    let links: String = (0..24).map(path).collect();
+    let (place, _) = of("net.edges", &links, &["--matrix", "laplacian"], 0);
+    let summary = place.json("results/net/summary.json");
+    let eigenvalues = summary["eigenvalues"].as_array().unwrap();
+    let zeros = eigenvalues.iter().filter(|lambda| lambda.as_f64().unwrap().abs() < 1e-9);
+    assert_eq!(zeros.count(), 24);
+    // Strong coupling synchronises each path.
+    assert_eq!(summary["cascade"][0]["n_clusters"], 24);
+}
+
+#[test]
 fn weights_over_twelve_orders_of_magnitude_keep_their_clusters() {
     // Two pairs of strong links, as alike as they can be, and a weak link between them.
     let (place, said) = of("net.edges", "1 2 1e6\n2 3 1e-6\n3 4 1e6\n", &[], 0);
