@@ -20,7 +20,8 @@ use crate::progress::Stages;
 use crate::simulated::{Seen, Simulated};
 use crate::stability;
 use crate::step_effect::StepEffect;
-use crate::synchrony::{Evidence, Synchrony};
+use crate::synchrony::{Evidence, Synchrony, assumed_above};
+use crate::table::four_digits;
 use crate::warning::{Warning, Warnings};
 
 /// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
@@ -71,6 +72,16 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     // Zero modes are zero exactly, and no others are.
     let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
     let fastest = fastest(plan, &spectrum, stable, &mut warnings);
+    let fastest_rate = fastest.map_or_else(|| strongest(plan), f64::abs);
+    if let Some(above) = assumed_above(stable, fastest_rate) {
+        let looked = four_digits(msf.sigma[msf.sigma.len() - 1]);
+        let above = four_digits(above);
+        let message = format!(
+            "nothing was looked at beyond σ = {looked}: above epsilon = {above} some modes are there, \
+             and are taken to be stable"
+        );
+        warnings.add("cascade", message);
+    }
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
         warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
@@ -109,6 +120,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         states: &states,
         n_components: plan.n_components,
         looked_to: msf.sigma[msf.sigma.len() - 1],
+        fastest_rate,
     });
     let cascade = merge_equal_clusters(&states);
     let labels = labels(plan, &spectrum, &cascade, &states, stages).map_err(|error| {
@@ -155,6 +167,12 @@ fn fastest(
             None
         }
     }
+}
+
+/// The largest |w_ii|, which |λ_N| is at least.
+fn strongest(plan: &Plan) -> f64 {
+    let diagonal = plan.matrix.symmetric().diag_iter();
+    diagonal.flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 
 /// What is not predicted from a part of the modes, and what would be needed for it.

@@ -44,6 +44,14 @@ pub struct Evidence<'a> {
     pub n_components: usize,
     /// σ up to which was looked.
     pub looked_to: f64,
+    /// |λ_N|, or what it is at least.
+    pub fastest_rate: f64,
+}
+
+/// ε above which λ_N has a σ beyond all that were looked at, where the set counts as unbounded.
+pub fn assumed_above(stable: &StableRegion, fastest_rate: f64) -> Option<f64> {
+    let top = stable.intervals.last().filter(|last| last.to.is_looked())?.to.sigma();
+    (top.is_finite() && fastest_rate > 0.0).then(|| top / fastest_rate)
 }
 
 impl Synchrony {
@@ -53,7 +61,7 @@ impl Synchrony {
         Self {
             eigenratio: evidence.eigenratio(),
             window_ratios: stable.intervals.iter().map(ratio).collect(),
-            verdict: evidence.verdict(&epsilon),
+            verdict: evidence.verdict(&epsilon) + &evidence.assumption(&epsilon),
             epsilon,
         }
     }
@@ -97,6 +105,24 @@ impl Evidence<'_> {
 
     fn eigenratio(&self) -> Option<f64> {
         Some(self.known.fastest? / self.slowest()?)
+    }
+
+    /// What a verdict takes for granted: that σ beyond the look are stable.
+    fn assumption(&self, ranges: &[EpsilonRange]) -> String {
+        let Some(above) = assumed_above(self.stable, self.fastest_rate) else {
+            return String::new();
+        };
+        let looked = four_digits(self.looked_to);
+        match ranges.last() {
+            Some(range) if range.to.is_none() && above <= range.from => {
+                format!(", if σ beyond {looked}, where nothing was looked at, are stable")
+            }
+            Some(range) if range.to.is_none() => format!(
+                "; for ε > {} only if σ beyond {looked}, where nothing was looked at, are stable",
+                four_digits(above)
+            ),
+            _ => String::new(),
+        }
     }
 
     fn verdict(&self, ranges: &[EpsilonRange]) -> String {
@@ -182,6 +208,7 @@ mod tests {
             stable: &stable,
             n_components,
             looked_to: 50.0,
+            fastest_rate: fastest.map_or(0.0, f64::abs),
         };
         Synchrony::of(&evidence).verdict
     }
@@ -197,6 +224,22 @@ mod tests {
         assert_eq!(verdict(3, &PATH, unbounded), "all nodes synchronise for ε > 8");
         let periodic = vec![Interval::known(0.0, None)];
         assert_eq!(verdict(3, &PATH, periodic), "all nodes synchronise for every ε > 0");
+    }
+
+    #[test]
+    fn a_verdict_that_leans_on_what_was_not_looked_at_says_so() {
+        let to = End::Looked { sigma: 50.0 };
+        let of = |from| verdict(3, &PATH, vec![Interval { to, ..Interval::known(from, None) }]);
+        // σ_N = 3ε passes 50 at ε = 16.67.
+        assert_eq!(
+            of(8.0),
+            "all nodes synchronise for ε > 8; for ε > 16.67 only if σ beyond 50, where nothing was \
+             looked at, are stable"
+        );
+        assert_eq!(
+            of(20.0),
+            "all nodes synchronise for ε > 20, if σ beyond 50, where nothing was looked at, are stable"
+        );
     }
 
     #[test]
