@@ -39,6 +39,11 @@ const WORTH: f64 = 0.05;
 /// So many bytes are kept whatever they cost.
 const FEW_BYTES: f64 = 1e6;
 
+/// Whether a file in a hidden folder is called as what a journal consists of.
+pub fn is_its(name: &str) -> bool {
+    name == JOURNAL || snapshots::is_one(name)
+}
+
 /// Kinds of records. Their numbers stand in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]

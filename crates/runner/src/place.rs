@@ -63,9 +63,11 @@ impl Place {
         let failed = |error| unwritable(results, id, &error);
         fs::create_dir_all(results).map_err(failed)?;
         let origin = Origin::new(command, file, &results.join(id))?;
+        let results = &within(results, id).map_err(failed)?;
         let mut place =
             Self { results: results.to_owned(), id: id.to_owned(), origin, quick, lock: None };
-        place.target()?;
+        let (target, _) = place.target()?;
+        refuse_mounted(&target)?;
         let hidden = name::hidden(results, id, quick);
         let lock = Lock::take(&hidden, &place.origin).map_err(|error| match error {
             lock::Refusal::Io(error) => failed(error),
@@ -95,7 +97,8 @@ impl Place {
     pub fn folder(&self) -> Result<Folder> {
         let making = self.unfinished().join(FILES);
         let failed = |error| unwritable(&self.results, &self.id, &error);
-        clear(&making).and_then(|()| fs::create_dir(&making)).map_err(failed)?;
+        // Should the hidden folder have been taken away, the results are still here.
+        clear(&making).and_then(|()| fs::create_dir_all(&making)).map_err(failed)?;
         Ok(Folder::new(making, self.results.join(&self.id)))
     }
 
@@ -158,6 +161,7 @@ impl Place {
             None if replaced.exists() => exchange::put(&replaced, &place),
             Some(ours) if whole.exists() && is_newer(ours) => {
                 carry::link_along(&place, &whole);
+                exchange::resemble(&place, &whole);
                 exchange::swap(&whole, &place, &replaced, ours.identity)
             }
             _ => Ok(()),
@@ -193,6 +197,29 @@ impl Drop for Place {
                 lock.remove();
             }
         }
+    }
+}
+
+/// The folder of results, named from the root where the program was started in results that it may
+/// exchange: its own folder is then another one, and names that lead up from there lead elsewhere.
+fn within(results: &Path, id: &str) -> std::io::Result<PathBuf> {
+    let (root, here) = (fs::canonicalize(results)?, std::env::current_dir()?);
+    let is_inside = [root.join(id), name::quick(&root, id)].iter().any(|at| here.starts_with(at));
+    Ok(if is_inside { root } else { results.to_owned() })
+}
+
+/// A file system that is mounted at the place cannot be exchanged for a folder.
+fn refuse_mounted(place: &Path) -> Result<()> {
+    use std::os::unix::fs::MetadataExt;
+    let device = |path: &Path| fs::symlink_metadata(path).map(|found| found.dev());
+    let parent = place.parent().filter(|parent| !parent.as_os_str().is_empty());
+    match (device(place), device(parent.unwrap_or(Path::new(".")))) {
+        (Ok(own), Ok(around)) if own != around => {
+            let message = "is a file system of its own, which cannot be exchanged for new results";
+            let hint = "write into it: `--results` names a folder that holds results";
+            Err(Problem::new(message).in_file(place).hint(hint))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::exit;
@@ -46,6 +46,8 @@ pub fn watch() -> Result<()> {
         flag::register_conditional_shutdown(signal, 128 + signal, armed.clone()).map_err(failed)?;
         flag::register(signal, armed.clone()).map_err(failed)?;
     }
+    // A file that may grow no larger is an error of writing, told as any other.
+    flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map_err(failed)?;
     let wait = move || {
         if let Some(signal) = signals.forever().next() {
             stop(signal);

@@ -44,13 +44,14 @@ impl Log {
             let index = records.into_iter().map(|found| (found.key, found)).collect();
             Self { path: path.to_owned(), file, index, runs, end, flushed: Instant::now() }
         };
-        let mut file = match OpenOptions::new().read(true).write(true).open(path) {
+        let mut file = match plainly().read(true).write(true).open(path) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return Ok((new(None, Vec::new(), 0), Vec::new()));
             }
             file => file?,
         };
         let n_bytes = file.metadata()?.len();
+        check_alone(&file)?;
         let contents = record::scan(&mut file, n_bytes)?;
         let mut damage = Vec::new();
         if contents.damaged > 0 {
@@ -117,6 +118,25 @@ impl Log {
         self.flushed = Instant::now();
         self.file.as_ref().map_or(Ok(()), File::sync_data)
     }
+}
+
+/// Options that follow no link: what a link leads to is not ours.
+fn plainly() -> OpenOptions {
+    use std::os::unix::fs::OpenOptionsExt;
+    let no_follow = rustix::fs::OFlags::NOFOLLOW.bits();
+    let mut options = OpenOptions::new();
+    options.custom_flags(i32::try_from(no_follow).unwrap_or_default());
+    options
+}
+
+/// Refuses a file that has another name elsewhere, before it is cut to what is whole in it.
+fn check_alone(file: &File) -> Result<()> {
+    use std::os::unix::fs::MetadataExt;
+    let found = file.metadata()?;
+    if found.is_file() && found.nlink() == 1 {
+        return Ok(());
+    }
+    Err(Error::new(ErrorKind::InvalidData, "it is no plain file of its own"))
 }
 
 /// Begins a journal, and flushes the folder, since a file without a name is lost as well.

@@ -22,6 +22,11 @@ pub struct Snapshots {
     left: HashSet<PathBuf>,
 }
 
+/// Whether a file is called as a snapshot is, or one that is being written.
+pub fn is_one(name: &str) -> bool {
+    name.starts_with(PREFIX)
+}
+
 impl Snapshots {
     pub fn new(folder: &Path) -> Self {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();

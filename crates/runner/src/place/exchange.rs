@@ -27,6 +27,15 @@ pub fn try_out(hidden: &Path) -> Result<()> {
     super::clear(&trial)
 }
 
+/// Gives a new folder the mode and the owner of the one that it replaces, as far as that is allowed.
+pub fn resemble(old: &Path, new: &Path) {
+    use std::os::unix::fs::{MetadataExt, chown};
+    let Ok(found) = fs::metadata(old) else { return };
+    // A folder of another mode or owner is no reason to fail; the results are whole all the same.
+    let _ = chown(new, Some(found.uid()), Some(found.gid()));
+    let _ = fs::set_permissions(new, found.permissions());
+}
+
 /// Puts a folder where nothing is.
 pub fn put(from: &Path, to: &Path) -> Result<()> {
     match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {

@@ -110,18 +110,40 @@ impl Lock {
         &self.folder
     }
 
-    /// Removes the folder with all that is in it, the lock last. Where another process has come in
-    /// between, the folder is its own by then and stays.
+    /// Removes what is ours in the folder, then the lock and the folder. The lock stays beside anything
+    /// that cannot be removed or is not ours, so that the next run knows the folder. Where another
+    /// process has come in between, the folder is its own by then and stays.
     pub fn remove(self) {
-        let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
-        for entry in entries.filter(|entry| entry.file_name() != LOCK) {
-            let path = entry.path();
+        let Ok(entries) = fs::read_dir(&self.folder) else { return };
+        let mut is_empty = true;
+        for entry in entries {
+            let Ok(entry) = entry else { return };
+            let (path, name) = (entry.path(), entry.file_name());
+            if name == LOCK {
+                continue;
+            }
             let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-            let _ = if is_folder { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            let removed = match (is_made_here(&name.to_string_lossy()), is_folder) {
+                (false, _) => false,
+                (true, true) => fs::remove_dir_all(&path).is_ok(),
+                (true, false) => fs::remove_file(&path).is_ok(),
+            };
+            if !removed {
+                tell!("warning: {} stays in the folder of an unfinished run", path.display());
+                is_empty = false;
+            }
         }
-        let _ = fs::remove_file(self.folder.join(LOCK));
-        let _ = fs::remove_dir(&self.folder);
+        if is_empty {
+            let _ = fs::remove_file(self.folder.join(LOCK));
+            let _ = fs::remove_dir(&self.folder);
+        }
     }
+}
+
+/// Whether something in a hidden folder is called as what runs leave there.
+fn is_made_here(name: &str) -> bool {
+    let folders = ["trial", super::FILES, super::WHOLE, super::REPLACED];
+    folders.contains(&name) || crate::journal::is_its(name)
 }
 
 /// Whether a run works in a folder at this moment.
@@ -153,11 +175,11 @@ fn knows_no_locks(error: &std::io::Error) -> bool {
     error.kind() == ErrorKind::Unsupported || of(Errno::NOLCK) || of(Errno::NOTSUP)
 }
 
-/// Whether what stands at the name of a hidden folder is one: it has a lock, or is empty since a run
-/// was killed before it had one.
+/// Whether what stands at the name of a hidden folder is one: it has a lock, or nothing but what a run
+/// leaves there.
 fn check_ours(folder: &Path) -> Result<(), Refusal> {
     let is_folder = fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir());
-    let is_ours = || folder.join(LOCK).is_file() || is_empty(folder);
+    let is_ours = || folder.join(LOCK).is_file() || holds_nothing_but_ours(folder);
     // One that has just gone is no reason to refuse; the next try makes it anew.
     if folder.symlink_metadata().is_err() || (is_folder && is_ours()) {
         return Ok(());
@@ -167,8 +189,12 @@ fn check_ours(folder: &Path) -> Result<(), Refusal> {
     Err(Refusal::Problem(Problem::new(message).in_file(folder).hint(hint)))
 }
 
-fn is_empty(folder: &Path) -> bool {
-    fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
+/// Whether there is nothing else in a folder than what a run leaves that could not clear up.
+fn holds_nothing_but_ours(folder: &Path) -> bool {
+    let ours = |entry: std::io::Result<fs::DirEntry>| {
+        entry.is_ok_and(|entry| is_made_here(&entry.file_name().to_string_lossy()))
+    };
+    fs::read_dir(folder).is_ok_and(|mut entries| entries.all(ours))
 }
 
 fn holder(text: &str) -> Option<Holder> {

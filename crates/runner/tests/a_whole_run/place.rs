@@ -295,3 +295,65 @@ fn a_folder_in_the_results_that_could_not_come_along_is_refused_before_the_run()
     assert_eq!(status, Some(0), "{said}");
     assert_eq!(place.read("results/tiny/drafts/one.tex"), "years of work");
 }
+
+#[test]
+fn a_run_that_is_started_in_its_own_results_puts_new_ones_in_place() {
+    let place = Workplace::new();
+    run(&place, &tiny(), &[]);
+    place.write("results/tiny/notes.txt", "mine");
+    let mut command = place.eigensync(&["run", "../../tiny.toml", "--results", ".."]);
+    let output = command.current_dir(place.path("results/tiny")).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(place.names("results"), ["tiny"]);
+    assert_eq!(place.read("results/tiny/notes.txt"), "mine");
+}
+
+#[test]
+fn a_run_that_could_not_clear_up_does_not_bar_the_next_one() {
+    let place = Workplace::new();
+    for left in ["trial/new/file", "trial/old/file", "journal", "files/msf.csv"] {
+        place.write(&format!("results/.tiny.unfinished/{left}"), "");
+        run(&place, &tiny(), &[]);
+        assert_eq!(place.names("results"), ["tiny"], "{left}");
+    }
+}
+
+#[test]
+fn what_a_user_put_beside_unfinished_work_stays() {
+    let place = Workplace::new();
+    place.write("results/.tiny.unfinished/lock", "");
+    place.write("results/.tiny.unfinished/mine/one.tex", "years of work");
+    let said = run(&place, &tiny(), &[]);
+    assert!(said.contains("mine stays in the folder of an unfinished run"), "{said}");
+    assert_eq!(place.read("results/.tiny.unfinished/mine/one.tex"), "years of work");
+    run(&place, &tiny(), &[]);
+    assert_eq!(place.read("results/.tiny.unfinished/mine/one.tex"), "years of work");
+}
+
+#[test]
+fn a_journal_that_leads_elsewhere_is_refused_and_not_written_to() {
+    let place = Workplace::new();
+    place.write("precious", "years of work");
+    place.write("results/.tiny.unfinished/lock", "");
+    let journal = place.path("results/.tiny.unfinished/journal");
+    symlink(place.path("precious"), &journal).unwrap();
+    place.answer(&["run", "tiny.toml"]).with_status(2);
+    fs::remove_file(&journal).unwrap();
+    fs::create_dir_all(journal.parent().unwrap()).unwrap();
+    place.write("results/.tiny.unfinished/lock", "");
+    fs::hard_link(place.path("precious"), &journal).unwrap();
+    place.answer(&["run", "tiny.toml"]).with_status(2);
+    assert_eq!(place.read("precious"), "years of work");
+    run(&place, &tiny(), &["--fresh"]);
+    assert_eq!(place.read("precious"), "years of work");
+}
+
+#[test]
+fn new_results_have_the_mode_of_those_that_they_replace() {
+    let place = Workplace::new();
+    run(&place, &tiny(), &[]);
+    fs::set_permissions(place.path("results/tiny"), Permissions::from_mode(0o700)).unwrap();
+    run(&place, &tiny(), &[]);
+    let mode = fs::metadata(place.path("results/tiny")).unwrap().permissions().mode();
+    assert_eq!(mode & 0o7777, 0o700);
+}
