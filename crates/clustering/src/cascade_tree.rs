@@ -4,6 +4,9 @@
 //! that of the state above, as exact clusters do above one critical σ_c. Where some clusters merge
 //! again (a bounded stable set; a threshold on δe, which is a mean over modes) no tree describes the
 //! states across that ε: one tree ends there and another begins.
+//!
+//! Where the nodes of a cluster stay together but its cells change between one and several, exact
+//! synchrony is lost in it, or found: it ends there, and is its own only part.
 
 use std::ops::Range;
 
@@ -37,7 +40,7 @@ pub enum TreeEnd {
     },
 }
 
-/// One cluster, for as long as its nodes stay together and no others join.
+/// One cluster, for as long as its nodes stay together, no others join, and it is one cell or is not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeCluster {
     /// The cluster it is a part of; none for those of the first state.
@@ -45,7 +48,8 @@ pub struct TreeCluster {
     /// Its listed parts, as places among the clusters; empty where it does not split, or into
     /// clusters too small to be listed.
     pub children: Range<usize>,
-    /// Whether it splits at the lower end of its range of ε, rather than the tree ends there.
+    /// Whether it splits or stops being exact at the lower end of its range of ε, rather than the tree
+    /// ends there.
     pub splits: bool,
     /// Open range of the coupling, from below; no upper end where it is unbounded.
     pub epsilon: (f64, Option<f64>),
@@ -211,10 +215,11 @@ impl Growth {
         let mut alive = vec![None; state.clusters.n_clusters()];
         let mut parts = Vec::new();
         let sizes = state.clusters.sizes();
+        let (was_one_cell, is_one_cell) = (one_cell(above), one_cell(state));
         for (cluster, first_node) in state.clusters.first_nodes().into_iter().enumerate() {
             let of = above.clusters.cluster_of()[first_node];
             let parent = self.alive[of];
-            if sizes[cluster] == sizes_above[of] {
+            if sizes[cluster] == sizes_above[of] && is_one_cell[cluster] == was_one_cell[of] {
                 alive[cluster] = parent;
             } else if parent.is_some() {
                 parts.push((cluster, Part { parent, first_node, size: sizes[cluster] }));
@@ -274,6 +279,15 @@ impl Growth {
         let Self { clusters, n_unlisted, .. } = self;
         CascadeTree { states, clusters, end, n_unlisted }
     }
+}
+
+/// Whether each cluster of a state is one cell.
+fn one_cell(state: &State) -> Vec<bool> {
+    let (sizes, cells) = (state.clusters.sizes(), &state.cells);
+    let cell_sizes = cells.sizes();
+    let first_nodes = state.clusters.first_nodes();
+    let is_one = |(first, size): (usize, usize)| cell_sizes[cells.cluster_of()[first]] == size;
+    first_nodes.into_iter().zip(sizes).map(is_one).collect()
 }
 
 /// A cluster that appears in a state.

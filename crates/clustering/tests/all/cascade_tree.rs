@@ -157,6 +157,46 @@ fn clusters_of_the_power_grid_are_labelled_exact_and_accidents_are_not() {
     assert!(expected.iter().all(|line| path_with_a_tail.contains(line)));
 }
 
+#[test]
+fn a_cluster_that_stays_together_is_cut_where_its_exact_synchrony_is_lost() {
+    // A path with a tail: v_2 tells all nodes apart, and none by more than 0.5 from its neighbours.
+    let path = "1 2\n2 3\n3 4\n4 5\n5 6\n6 7\n7 8 0.9\n8 9\n9 10\n2 11";
+    let spectrum = spectrum_of(&read(path), Normalization::Laplacian);
+    let states = cascade(&spectrum, &region(8.0, None), ClusterRule::Threshold(0.5)).unwrap();
+    let tree = only(CascadeTree::of_each_run(&merge_equal_clusters(&states), 2));
+    let critical = 8.0 / -spectrum.eigenvalues[1];
+    let cuts: Vec<_> =
+        tree.clusters.iter().map(|c| (c.parent, c.size, c.epsilon, c.splits)).collect();
+    let expected =
+        [(None, 11, (critical, None), true), (Some(0), 11, (0.0, Some(critical)), false)];
+    assert!((cuts[0].2.0 - critical).abs() < 1e-9 * critical);
+    assert_eq!(
+        cuts.iter().map(|c| (c.0, c.1, c.3)).collect::<Vec<_>>(),
+        expected.iter().map(|c| (c.0, c.1, c.3)).collect::<Vec<_>>()
+    );
+    assert_eq!(cuts[1].2, (0.0, Some(cuts[0].2.0)));
+}
+
+#[test]
+fn a_small_exact_cluster_under_a_threshold_is_cut_where_it_stops_being_exact() {
+    // The leaves 1 and 2 of a are alike until their own mode, λ = −1, is unstable.
+    let network = read("a 1\na 2\nb 3\nb 4\nb 5\na b");
+    let spectrum = spectrum_of(&network, Normalization::Laplacian);
+    let states = cascade(&spectrum, &region(1.0, None), ClusterRule::Threshold(0.3)).unwrap();
+    let trees = CascadeTree::of_each_run(&merge_equal_clusters(&states), 2);
+    for (row, tree) in trees.iter().flat_map(|tree| tree.clusters.iter().map(move |c| (c, tree))) {
+        let exact = row.states.clone().map(|s| {
+            let state = &merge_equal_clusters(&states)[s];
+            let nodes = state.clusters.clusters();
+            let of = nodes.iter().find(|nodes| nodes.contains(&row.first_node)).unwrap();
+            of.iter().all(|&node| state.cells.cluster_of()[node] == state.cells.cluster_of()[of[0]])
+        });
+        let exact: Vec<bool> = exact.collect();
+        assert!(exact.windows(2).all(|pair| pair[0] == pair[1]), "{row:?} in {tree:?}");
+    }
+    assert!(trees[0].clusters[0].splits);
+}
+
 /// The clusters listed for a state, by first node, as (first node, size).
 fn alive(tree: &CascadeTree, state: usize) -> Vec<(usize, usize)> {
     let clusters = tree.clusters.iter().filter(|c| c.states.contains(&state));
@@ -221,6 +261,8 @@ fn check_innermost(tree: &CascadeTree, states: &[State]) {
     for (node, &innermost) in innermost.iter().enumerate() {
         let holds = |id: &usize| members[*id].contains(&node);
         let of = (0..tree.clusters.len()).filter(holds);
-        assert_eq!(innermost, of.min_by_key(|&id| members[id].len()), "node {node}");
+        // Of a cluster that stays together while it stops being exact the later one.
+        let smallest = of.min_by_key(|&id| (members[id].len(), std::cmp::Reverse(id)));
+        assert_eq!(innermost, smallest, "node {node}");
     }
 }

@@ -63,12 +63,12 @@ impl Judge<'_> {
         let Some(lost) = lost else {
             return Ok(Judged::new(json!(paper), Value::Null, "exact", false));
         };
-        let mut order: Vec<usize> = (1..=clusters.len()).collect();
-        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-        order.sort_by(|a, b| middle(lost[b - 1]).total_cmp(&middle(lost[a - 1])));
         let predicted = self.spec.of == Quantity::CascadeOrder;
         let answer = follows(&paper, &lost, predicted);
-        let shown = if let Answer::CannotBeJudged(_) = answer { Value::Null } else { json!(order) };
+        let shown = match answer {
+            Answer::CannotBeJudged(_) => Value::Null,
+            _ => json!(order_shown(&lost, predicted)),
+        };
         Ok(Judged::new(json!(paper), shown, "exact", answer))
     }
 
@@ -99,6 +99,24 @@ fn follows(order: &[usize], lost: &[[f64; 2]], predicted: bool) -> Answer {
         }
     };
     Answer::of_all(order.windows(2).map(one_after_other))
+}
+
+/// The order in which clusters are lost as ε falls, from 1; those without an order among them stand
+/// together, in words.
+fn order_shown(lost: &[[f64; 2]], predicted: bool) -> Vec<Value> {
+    let middle = |position: &usize| 0.5 * (lost[position - 1][0] + lost[position - 1][1]);
+    let mut order: Vec<usize> = (1..=lost.len()).collect();
+    order.sort_by(|a, b| middle(b).total_cmp(&middle(a)));
+    let is_ordered = |a: &usize, b: &usize| follows(&[*a, *b], lost, predicted) == Answer::Holds;
+    let shown = |group: &[usize]| match group {
+        [single] => json!(single),
+        several => {
+            let texts: Vec<String> = several.iter().map(usize::to_string).collect();
+            let how = if predicted { "lost together" } else { "lost too near each other" };
+            json!(format!("{} {how}", texts.join(" and ")))
+        }
+    };
+    order.chunk_by(|a, b| !is_ordered(a, b)).map(shown).collect()
 }
 
 fn texts(clusters: &[Vec<Name>]) -> Vec<Vec<&str>> {
@@ -138,6 +156,18 @@ mod tests {
         assert_eq!(follows(&[1, 2, 3], &lost, true), Answer::Differs);
         assert_eq!(follows(&[1, 3], &lost, true), Answer::Holds);
         assert_eq!(follows(&[3, 1], &lost, true), Answer::Differs);
+    }
+
+    #[test]
+    fn clusters_lost_together_are_shown_together_and_not_in_the_claimed_order() {
+        let at = |epsilon: f64| [epsilon, epsilon];
+        assert_eq!(order_shown(&[at(2.0), at(2.0)], true), [json!("1 and 2 lost together")]);
+        let shown = order_shown(&[at(1.0), at(3.0), at(1.0)], true);
+        assert_eq!(shown, [json!(2), json!("1 and 3 lost together")]);
+        assert_eq!(order_shown(&[at(1.0), at(3.0), at(2.0)], true), [2, 3, 1].map(|k| json!(k)));
+        // Of simulated ones that overlap none is known to be the first.
+        let shown = order_shown(&[[1.0, 2.0], [3.0, 4.0], [1.0, 2.0]], false);
+        assert_eq!(shown, [json!(2), json!("1 and 3 lost too near each other")]);
     }
 
     #[test]

@@ -8,10 +8,10 @@
 //! neither are nodes at ε = 0; where these have no error for a reason of their own, ε = 0 tells nothing
 //! of coupling and the sweep begins above it.
 
-use dynamics::Estimate;
+use dynamics::{Estimate, Outcome, Run};
 use serde::Serialize;
 
-use super::{Simulated, completed};
+use super::Simulated;
 
 /// Both ends of the range in which clusters were seen.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Seen {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
-    /// In every seed the sweep has a point on either side of it.
+    /// In every seed that tells of it the sweep has a point on either side of it.
     Measured,
     /// In some seed it lies below the sweep: its mean is at most the limit.
     AtMost,
@@ -34,7 +34,7 @@ pub enum Known {
     AtLeast,
     /// In some seed the clusters are synchronised at no point that was looked at.
     Unseen,
-    /// No point of the sweep lies where the clusters are predicted.
+    /// No point of the sweep that was integrated lies where the clusters are predicted.
     NotSwept,
 }
 
@@ -61,7 +61,18 @@ pub struct End {
     pub interval: Option<[f64; 2]>,
 }
 
-/// An end in one seed: the last point that is synchronised, and the next one that is not.
+/// What one run shows of some clusters.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sight {
+    Synchronised,
+    Apart,
+    Escaped,
+    /// The integrator gave up.
+    Nothing,
+}
+
+/// An end in one seed: the last point that is synchronised, and the next one that is not, with whether
+/// its run escaped.
 #[derive(Clone, Copy)]
 struct OfSeed {
     kept: f64,
@@ -83,47 +94,59 @@ impl Simulated {
         if candidates.is_empty() {
             return Seen { onset: End::none(Known::NotSwept), end: End::none(Known::NotSwept) };
         }
-        let synchronised = self.synchronised(clusters);
-        let ends = |seed: usize| self.ends_in(&synchronised[seed], seed, &candidates);
-        let (onsets, ends): (Vec<_>, Vec<_>) = (0..self.seeds.len()).map(ends).unzip();
-        Seen { onset: End::of(&onsets, Known::AtMost), end: End::of(&ends, Known::AtLeast) }
+        // A seed of which no run was integrated there tells nothing, and the others decide.
+        let ends_in = |seen: &Vec<Sight>| {
+            let tells = candidates.iter().any(|&at| seen[at] != Sight::Nothing);
+            tells.then(|| self.ends_in(seen, &candidates))
+        };
+        let ends: Vec<Option<[Option<OfSeed>; 2]>> =
+            self.sights(clusters).iter().map(ends_in).collect();
+        let of = |end: usize, beyond| {
+            let of_seeds: Vec<_> = ends.iter().map(|ends| ends.map(|ends| ends[end])).collect();
+            End::of(&of_seeds, beyond)
+        };
+        Seen { onset: of(0, Known::AtMost), end: of(1, Known::AtLeast) }
     }
 
-    /// Whether all of these clusters are synchronised, by seed and ε.
-    fn synchronised(&self, clusters: &[Vec<usize>]) -> Vec<Vec<bool>> {
+    /// What is seen of these clusters, by seed and ε.
+    fn sights(&self, clusters: &[Vec<usize>]) -> Vec<Vec<Sight>> {
         let bounds: Vec<f64> = (0..self.epsilon.len()).map(|at| self.bound(at)).collect();
-        let at = |seed: usize, at: usize| {
-            let run = &self.at(at)[seed];
-            let below = |c: &Vec<usize>| self.cluster_error(run, c).is_some_and(|e| e < bounds[at]);
-            clusters.iter().all(below)
+        let sight = |run: &Run, bound: f64| {
+            let below = |c: &Vec<usize>| self.cluster_error(run, c).is_some_and(|e| e < bound);
+            match run.outcome {
+                Outcome::Failed { .. } => Sight::Nothing,
+                Outcome::Escaped { .. } => Sight::Escaped,
+                Outcome::Completed(_) if clusters.iter().all(below) => Sight::Synchronised,
+                Outcome::Completed(_) => Sight::Apart,
+            }
         };
-        let of_seed = |seed| (0..self.epsilon.len()).map(|position| at(seed, position)).collect();
+        let of_seed = |seed: usize| {
+            bounds.iter().enumerate().map(|(at, &bound)| sight(&self.at(at)[seed], bound)).collect()
+        };
         (0..self.seeds.len()).map(of_seed).collect()
     }
 
     /// Lower and upper end in one seed; none where the clusters are synchronised at no candidate.
-    fn ends_in(
-        &self,
-        synchronised: &[bool],
-        seed: usize,
-        candidates: &[usize],
-    ) -> (Option<OfSeed>, Option<OfSeed>) {
-        let Some(&start) = candidates.iter().rev().find(|&&at| synchronised[at]) else {
-            return (None, None);
-        };
-        let end = |kept: usize, lost: Option<usize>| OfSeed {
-            kept: self.epsilon[kept],
-            lost: lost.map(|at| (self.epsilon[at], completed(&self.at(at)[seed]).is_none())),
+    fn ends_in(&self, seen: &[Sight], candidates: &[usize]) -> [Option<OfSeed>; 2] {
+        let is_synchronised = |at: &usize| seen[*at] == Sight::Synchronised;
+        let Some(&start) = candidates.iter().rev().find(|at| is_synchronised(at)) else {
+            return [None, None];
         };
         // Uncoupled nodes without an error do not tell where coupling sets in.
-        let first = usize::from(self.epsilon[0] == 0.0 && synchronised[0]);
-        let below = (first..start).rev().find(|&at| !synchronised[at]);
-        let above = (start + 1..self.epsilon.len()).find(|&at| !synchronised[at]);
-        let last = self.epsilon.len() - 1;
-        (
-            Some(end(below.map_or(first, |at| at + 1), below)),
-            Some(end(above.map_or(last, |at| at - 1), above)),
-        )
+        let first = usize::from(self.epsilon[0] == 0.0 && is_synchronised(&0));
+        let tells = |at: &usize| seen[*at] != Sight::Nothing;
+        let end = |beyond: &mut dyn Iterator<Item = usize>| {
+            let mut kept = start;
+            for at in beyond.filter(tells) {
+                if !is_synchronised(&at) {
+                    let lost = Some((self.epsilon[at], seen[at] == Sight::Escaped));
+                    return Some(OfSeed { kept: self.epsilon[kept], lost });
+                }
+                kept = at;
+            }
+            Some(OfSeed { kept: self.epsilon[kept], lost: None })
+        };
+        [end(&mut (first..start).rev()), end(&mut (start + 1..self.epsilon.len()))]
     }
 }
 
@@ -141,16 +164,21 @@ impl End {
         }
     }
 
-    /// An end over seeds, which is a bound of this kind where it lies beyond the sweep in some.
-    fn of(seeds: &[Option<OfSeed>], beyond: Known) -> Self {
-        let midway = |seed: &Option<OfSeed>| {
-            let OfSeed { kept, lost } = (*seed)?;
+    /// An end over seeds, of which some may tell nothing, and some that there is none; it is a bound
+    /// of this kind where it lies beyond the sweep in some.
+    fn of(seeds: &[Option<Option<OfSeed>>], beyond: Known) -> Self {
+        let midway = |seed: &Option<Option<OfSeed>>| {
+            let OfSeed { kept, lost } = (*seed)??;
             Some(0.5 * (kept + lost?.0))
         };
         let of_seeds: Vec<Option<f64>> = seeds.iter().map(midway).collect();
+        let telling = || seeds.iter().flatten();
         let escaped = |seed: &&Option<OfSeed>| seed.and_then(|s| s.lost).is_some_and(|lost| lost.1);
-        let n_escaped = seeds.iter().filter(escaped).count();
-        let Some(ends) = seeds.iter().copied().collect::<Option<Vec<OfSeed>>>() else {
+        let n_escaped = telling().filter(escaped).count();
+        if telling().next().is_none() {
+            return Self { of_seeds, ..Self::none(Known::NotSwept) };
+        }
+        let Some(ends) = telling().copied().collect::<Option<Vec<OfSeed>>>() else {
             return Self { of_seeds, n_escaped, ..Self::none(Known::Unseen) };
         };
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -230,6 +258,47 @@ mod tests {
             assert_eq!([onset.mean, end.mean], [Some(1.5), Some(3.5)]);
             assert_eq!([onset.n_escaped, end.n_escaped], [0, 1]);
         }
+    }
+
+    /// The same sweep in which the integrator gave up at these points, as (ε, seed) from 0.
+    fn failed_at(mut sweep: Simulated, points: &[(usize, usize)]) -> Simulated {
+        for &(at, seed) in points {
+            let outcome = Outcome::Failed { time: 1.0, reason: "too stiff".into() };
+            sweep.runs[at * 2 + seed].outcome = outcome;
+        }
+        sweep
+    }
+
+    #[test]
+    fn an_integrator_that_gives_up_measures_no_end_and_is_no_escape() {
+        let both = |at: usize| [(at, 0), (at, 1)];
+        let sweep = || from(1.0, &[[5.0; 2], [0.0; 2], [0.0; 2], [0.0; 2]]);
+        let Seen { onset, end } = seen(&failed_at(sweep(), &both(3)), None);
+        assert_eq!((onset.bound, onset.mean), (Known::Measured, Some(1.5)));
+        assert_eq!((end.bound, end.limit, end.n_escaped), (Known::AtLeast, Some(3.0), 0));
+        let Seen { onset, .. } = seen(&failed_at(sweep(), &both(0)), None);
+        assert_eq!((onset.bound, onset.limit, onset.n_escaped), (Known::AtMost, Some(2.0), 0));
+        // Between two points that were integrated the end is known to half of their distance.
+        let Seen { onset, .. } = seen(&failed_at(sweep(), &both(1)), None);
+        assert_eq!(
+            (onset.bound, onset.mean, onset.half_step),
+            (Known::Measured, Some(2.0), Some(1.0))
+        );
+        // One seed bounds the mean.
+        let sweep = from(1.0, &[[0.0; 2], [0.0; 2], [f64::INFINITY, 5.0]]);
+        let Seen { end, .. } = seen(&failed_at(sweep, &[(2, 1)]), None);
+        assert_eq!((end.bound, end.limit, end.n_escaped), (Known::AtLeast, Some(2.0), 1));
+    }
+
+    #[test]
+    fn a_seed_of_which_nothing_was_integrated_leaves_the_others_to_tell() {
+        let sweep = || from(1.0, &[[5.0; 2], [0.0; 2]]);
+        let onset = seen(&failed_at(sweep(), &[(0, 1), (1, 1)]), None).onset;
+        assert_eq!((onset.bound, onset.mean), (Known::Measured, Some(1.5)));
+        assert_eq!(onset.of_seeds, [Some(1.5), None]);
+        let all = [(0, 0), (0, 1), (1, 0), (1, 1)];
+        let Seen { onset, end } = seen(&failed_at(sweep(), &all), None);
+        assert_eq!([onset.bound, end.bound], [Known::NotSwept; 2]);
     }
 
     #[test]

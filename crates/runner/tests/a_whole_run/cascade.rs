@@ -158,6 +158,15 @@ fn a_threshold_hides_neither_the_loss_of_synchrony_nor_a_chain() {
     assert_eq!(states[0]["epsilon"][0], summary["critical_couplings"][0]["epsilon"]);
     let exceeds = |state: usize| states[state]["labels"][0]["exceeds_threshold"].clone();
     assert_eq!((exceeds(0), exceeds(1)), (false.into(), true.into()));
+    // The table and the tree show the loss too: all nodes twice, exact above it and a chain below.
+    let table = rows(&place, "cascade.csv");
+    let shown = |row: usize| [1, 3, 9, 13].map(|column| table[row][column].clone());
+    assert_eq!(shown(0), ["", "8", "exact", "false"]);
+    assert_eq!(shown(1), ["1", "8", "approximate", "true"]);
+    let critical: f64 = table[0][8].parse().unwrap();
+    assert_eq!(states[0]["epsilon"][0], critical);
+    assert_eq!(place.read("results/net/cascade.nwk").matches(';').count(), 1);
+    assert!(place.read("results/net/cascade.nwk").ends_with(")1;\n"));
 }
 
 #[test]
