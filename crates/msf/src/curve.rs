@@ -5,7 +5,7 @@ use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
-use crate::{End, Interval, MsfError, StableRegion, origin};
+use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
 const ISOLATED_ORBITS: usize = 16;
@@ -44,7 +44,8 @@ pub enum Isolated {
     Chaotic,
     /// Λ(0) = 0 within its errors: a periodic orbit, or chaos too weak to tell.
     Periodic,
-    /// Λ(0) < 0: it comes to rest at a fixed point, where all nodes are equal without any coupling.
+    /// Λ(0) < 0: it comes to rest at a fixed point. Nodes are equal there without any coupling, if all
+    /// come to the same one: [`MasterStability::rests`].
     AtRest,
 }
 
@@ -59,6 +60,9 @@ pub struct MasterStability {
     pub isolated: Estimate,
     /// What Λ(0) says.
     pub state: Isolated,
+    /// How many isolated oscillators, of those tried, end in each of the states in which they come to
+    /// rest, the most frequent first; none where Λ(0) is not below 0.
+    pub rests: Vec<usize>,
     /// The stable set {Λ < 0} as far as was looked; of several attractors, what is stable on each.
     pub stable: StableRegion,
     /// Each of them, the one of most orbits first, where orbits settle on several attractors; the
@@ -87,10 +91,16 @@ pub fn master_stability(
     let work = Work { node, request, progress };
     let mut seeds = Seeds::new(request.seed);
     let (curve, split) = work.curve(&mut seeds)?;
-    match split {
-        Some(sigma) => work.on_each_attractor(curve, sigma, &mut seeds),
-        None => Ok(curve),
+    let mut curve = match split {
+        Some(sigma) => work.on_each_attractor(curve, sigma, &mut seeds)?,
+        None => curve,
+    };
+    curve.rests = work.rests(&curve)?;
+    if curve.rests.len() > 1 {
+        curve.stable.exclude_origin();
+        curve.attractors.iter_mut().for_each(|attractor| attractor.stable.exclude_origin());
     }
+    Ok(curve)
 }
 
 /// One computation.
@@ -111,6 +121,16 @@ impl Work<'_> {
     /// tangent varies along the orbit by a factor of order one.
     fn floor(&self) -> f64 {
         1.0 / self.request.times.average
+    }
+
+    /// Where the orbits of Λ(0) come to rest.
+    fn rests(&self, curve: &MasterStability) -> Result<Vec<usize>, MsfError> {
+        if curve.state != Isolated::AtRest {
+            return Ok(Vec::new());
+        }
+        let seeds: Vec<u64> = Seeds::new(self.request.seed).orbits().collect();
+        let Times { step, transient, .. } = self.request.times;
+        rest::counts(self.node.model, (step, transient), curve.isolated.mean, &seeds)
     }
 
     /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.
@@ -143,8 +163,8 @@ impl Work<'_> {
         let found = finder.zeros(&certain)?;
         let stable = region(&certain, &found.zeros, from);
         let sigma = sigma.clone();
-        let curve =
-            MasterStability { sigma, lambda, isolated, state, stable, attractors: Vec::new() };
+        let (rests, attractors) = (Vec::new(), Vec::new());
+        let curve = MasterStability { sigma, lambda, isolated, state, rests, stable, attractors };
         Ok((curve, found.split))
     }
 

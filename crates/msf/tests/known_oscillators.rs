@@ -121,6 +121,26 @@ fn a_fixed_point_is_at_rest_and_stable_from_the_origin_on() {
 }
 
 #[test]
+fn nodes_at_rest_in_two_different_states_are_not_equal_without_coupling() {
+    // Lorenz with 1 < r < 24: two fixed points with the same exponents, whatever the coupling x to x.
+    let lorenz = Model::Lorenz(Lorenz { alpha: 10.0, r: 10.0, b: 8.0 / 3.0 });
+    let msf = quick(lorenz, X_TO_X, vec![0.0, 1.0, 2.0]);
+    assert_eq!(msf.state, Isolated::AtRest);
+    assert!(msf.rests.len() == 2 && msf.rests.iter().sum::<usize>() == 16, "{:?}", msf.rests);
+    assert_eq!(msf.stable.intervals[0].from, End::Origin { included: false });
+    assert!(!msf.stable.contains(0.0) && msf.stable.contains(1e-9));
+    // z into y tells them apart by Λ too; below r = 1 there is one, the origin.
+    let apart = quick(lorenz, from_to(2, 1), vec![0.0, 5.0, 10.0, 15.0]);
+    assert_eq!(apart.rests.len(), 2);
+    assert!(
+        !apart.stable.contains(0.0) && apart.attractors.iter().all(|a| !a.stable.contains(0.0))
+    );
+    let one = Model::Lorenz(Lorenz { alpha: 10.0, r: 0.5, b: 8.0 / 3.0 });
+    let one = quick(one, X_TO_X, vec![0.0, 1.0, 2.0]);
+    assert!(one.rests == [16] && one.stable.contains(0.0), "{one:?}");
+}
+
+#[test]
 fn a_limit_cycle_that_any_coupling_damps_has_no_zero() {
     // Λ(0) = 0; y into y damps at every σ > 0, by Floquet multipliers.
     let lorenz = Model::Lorenz(Lorenz { alpha: 10.0, r: 160.0, b: 8.0 / 3.0 });

@@ -108,6 +108,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         critical: &critical,
         states: &states,
         n_components: plan.n_components,
+        n_rests: msf.rests.len(),
         looked_to: msf.sigma[msf.sigma.len() - 1],
     });
     let cascade = merge_equal_clusters(&states);

@@ -86,9 +86,15 @@ fn lambda(findings: &Findings) -> String {
 fn isolated(findings: &Findings) -> String {
     let isolated = findings.msf.isolated;
     let says = match findings.msf.state {
-        Isolated::Chaotic => "chaotic",
-        Isolated::Periodic => "periodic, 0 within its errors",
-        Isolated::AtRest => "at rest, nodes become equal without coupling",
+        Isolated::Chaotic => "chaotic".to_owned(),
+        Isolated::Periodic => "periodic, 0 within its errors".to_owned(),
+        Isolated::AtRest => match findings.msf.rests.len() {
+            0 | 1 => "at rest, nodes become equal without coupling".to_owned(),
+            several => format!(
+                "at rest in {several} different states, nodes in the same one become equal without \
+                 coupling"
+            ),
+        },
     };
     format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
 }

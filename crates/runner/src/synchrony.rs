@@ -2,7 +2,9 @@
 //!
 //! A window (σ₁, σ₂) of the stable set holds all transverse modes at σ₁ / |λ_2| < ε < σ₂ / |λ_N|, which
 //! exists when the eigenratio λ_N / λ_2 is below the window's ratio σ₂ / σ₁ (M. Barahona & L. M. Pecora,
-//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0.
+//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0
+//! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
+//! same one.
 
 use clustering::State;
 use msf::{CriticalCoupling, End, Interval, StableRegion};
@@ -42,6 +44,8 @@ pub struct Evidence<'a> {
     /// Predicted states, neighbours of equal clusters not yet merged.
     pub states: &'a [State],
     pub n_components: usize,
+    /// In how many different states isolated oscillators come to rest; 0 where they do not.
+    pub n_rests: usize,
     /// σ up to which was looked.
     pub looked_to: f64,
 }
@@ -111,7 +115,13 @@ impl Evidence<'_> {
         }
         if !ranges.is_empty() {
             let ranges: Vec<String> = ranges.iter().map(|range| range.in_words(at_rest)).collect();
-            let rest = if at_rest { ", since each comes to rest by itself" } else { "" };
+            let rest = match self.n_rests {
+                0 | 1 if at_rest => ", since each comes to rest by itself".to_owned(),
+                0 | 1 => String::new(),
+                n => format!(
+                    " if they come to the same one of the {n} states in which isolated oscillators rest"
+                ),
+            };
             return format!("all nodes synchronise for {}{rest}", ranges.join(" and for "));
         }
         let ratios: Vec<String> =
@@ -166,6 +176,16 @@ mod tests {
 
     /// The verdict on a network of links of weight 1, with all of its modes.
     fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
+        verdict_at_rest(n_nodes, links, intervals, 0)
+    }
+
+    /// The same where isolated oscillators rest in so many states.
+    fn verdict_at_rest(
+        n_nodes: usize,
+        links: &[(usize, usize)],
+        intervals: Vec<Interval>,
+        n_rests: usize,
+    ) -> String {
         let links: Vec<_> = links.iter().map(|&(i, j)| (i, j, 1.0)).collect();
         let labels = (0..n_nodes).map(|node| node.to_string()).collect();
         let network = Network::undirected(labels, &links).unwrap();
@@ -181,6 +201,7 @@ mod tests {
             states: &states,
             stable: &stable,
             n_components,
+            n_rests,
             looked_to: 50.0,
         };
         Synchrony::of(&evidence).verdict
@@ -215,6 +236,17 @@ mod tests {
         // At ε = 1.5 the modes have σ = 1.5 and 4.5.
         let two = vec![Interval::known(1.0, Some(2.0)), Interval::known(4.0, Some(5.0))];
         assert_eq!(verdict(3, &PATH, two), "all nodes synchronise for 1.333 < ε < 1.667");
+    }
+
+    #[test]
+    fn oscillators_at_rest_in_different_states_synchronise_in_the_same_one_only() {
+        let from_origin = vec![Interval::known(0.0, None)];
+        let expected = "all nodes synchronise for every ε > 0 if they come to the same one of the 2 \
+                        states in which isolated oscillators rest";
+        assert_eq!(verdict_at_rest(3, &PATH, from_origin.clone(), 2), expected);
+        let pairs = [(0, 1), (2, 3)];
+        let expected = "no ε synchronises all nodes: the network has 2 components";
+        assert_eq!(verdict_at_rest(4, &pairs, from_origin, 2), expected);
     }
 
     #[test]

@@ -71,6 +71,29 @@ fn oscillators_at_rest_synchronise_in_pieces_and_without_coupling() {
 }
 
 #[test]
+fn oscillators_at_rest_in_two_states_are_not_said_to_become_equal_by_themselves() {
+    let experiment = prediction()
+        .set("oscillator.lorenz.r", "10.0")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 2.0, points = 3 }")
+        .set("msf.transient", "100")
+        .set("msf.average", "400");
+    let (pieces, answer) = summary(&experiment, "1 2\n3 4\n");
+    let rests = pieces["msf"]["rests"].as_array().unwrap();
+    assert!(pieces["msf"]["isolated_state"] == "at rest" && rests.len() == 2, "{rests:?}");
+    let message = warned(&pieces, "msf.isolated_state");
+    assert!(message.contains("in 2 different states") && message.contains("same one only"));
+    assert!(!answer.stdout.contains("at rest, nodes become equal"), "{}", answer.stdout);
+    assert_eq!(pieces["msf"]["stable_ends"][0][0]["included"], false);
+    assert_eq!(pieces["cascade"][0]["clusters"], json!([["1", "2"], ["3", "4"]]));
+    let verdict = &pieces["global_synchrony"]["verdict"];
+    assert_eq!(*verdict, "no ε synchronises all nodes: the network has 2 components");
+    let (connected, _) = summary(&experiment, "1 2\n2 3\n");
+    let verdict = connected["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.ends_with("the same one of the 2 states in which isolated oscillators rest"));
+}
+
+#[test]
 fn orbits_on_two_fixed_points_are_told_with_a_zero_for_each() {
     let experiment = prediction()
         .set("oscillator.lorenz.r", "10.0")
