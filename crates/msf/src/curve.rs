@@ -19,6 +19,9 @@ pub struct Node {
     pub coupling: Coupling,
 }
 
+/// A grid that begins above 0 is carried on below by so many halvings: a window may lie there.
+const HALVINGS: i32 = 8;
+
 /// What to compute.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Request {
@@ -34,6 +37,16 @@ pub struct Request {
     /// request is written down.
     #[serde(skip)]
     pub instruction_set: InstructionSet,
+}
+
+impl Request {
+    /// The σ that are looked at: the grid, and where that begins above 0 its first σ halved eight
+    /// times, ascending.
+    pub fn looked_at(&self) -> Vec<f64> {
+        let first = self.sigma.first().copied().filter(|&first| first > 0.0);
+        let halved = |first: f64| (1..=HALVINGS).rev().map(move |k| first * 0.5f64.powi(k));
+        first.into_iter().flat_map(halved).chain(self.sigma.iter().copied()).collect()
+    }
 }
 
 /// What the isolated oscillator does, by its largest Lyapunov exponent Λ(0).
@@ -52,7 +65,7 @@ pub enum Isolated {
 /// The master stability function as computed.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MasterStability {
-    /// Grid of σ.
+    /// The σ that were looked at: [`Request::looked_at`].
     pub sigma: Vec<f64>,
     /// Λ at each σ, per unit of model time.
     pub lambda: Vec<Estimate>,
@@ -135,7 +148,7 @@ impl Work<'_> {
 
     /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.
     fn curve(&self, seeds: &mut Seeds) -> Result<(MasterStability, Option<f64>), MsfError> {
-        let (sigma, floor) = (&self.request.sigma, self.floor());
+        let (sigma, floor) = (self.request.looked_at(), self.floor());
         let isolated = seeds.orbits().map(|seed| Tangent { sigma: 0.0, seed }).collect::<Vec<_>>();
         let isolated = self.exponents(&isolated)?;
         let split = attractors::split(&[Column { sigma: 0.0, exponents: &isolated }], floor);
@@ -162,7 +175,6 @@ impl Work<'_> {
         let (certain, from) = origin::with(state, certain, &mut finder)?;
         let found = finder.zeros(&certain)?;
         let stable = region(&certain, &found.zeros, from);
-        let sigma = sigma.clone();
         let (rests, attractors) = (Vec::new(), Vec::new());
         let curve = MasterStability { sigma, lambda, isolated, state, rests, stable, attractors };
         Ok((curve, found.split))

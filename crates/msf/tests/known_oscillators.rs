@@ -104,6 +104,21 @@ fn a_grid_that_starts_inside_a_stable_range_finds_the_zero_below_it() {
 }
 
 #[test]
+fn a_grid_that_starts_above_a_window_finds_the_window() {
+    // Rössler, x into x: stable for 0.187 < σ < 4.61.
+    let rossler = Model::Rossler(Rossler::default());
+    let msf = quick(rossler, X_TO_X, vec![10.0, 11.0, 12.0]);
+    assert_eq!((msf.sigma.len(), msf.lambda.len()), (11, 11));
+    assert_eq!((msf.sigma[0], msf.sigma[7]), (10.0 / 256.0, 5.0));
+    let [low, high] = zeros(&msf)[..] else { panic!("{:?}", msf.stable) };
+    assert!(low.falling && (low.sigma - 0.187).abs() < 0.01 + 4.0 * low.standard_error, "{low:?}");
+    assert!(
+        !high.falling && (high.sigma - 4.61).abs() < 0.1 + 4.0 * high.standard_error,
+        "{high:?}"
+    );
+}
+
+#[test]
 fn a_grid_of_cells_thirty_times_as_wide_as_sigma_c_finds_it() {
     let msf = quick(LORENZ.model, X_TO_Y, vec![0.0, 250.0, 500.0]);
     let zero = msf.stable.sigma_c().expect("the set is sigma > sigma_c");

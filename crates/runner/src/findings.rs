@@ -79,6 +79,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let states = stages
         .measured("clusters", n_states, |progress| {
             let mut states = known.states(stable, plan.rule, progress)?;
+            if stable.intervals.is_empty() {
+                known.end_where_the_look_began(&mut states, msf.sigma[0]);
+            }
             let matrix = plan.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, plan.rule, EQUITABLE)?;
             Ok(states)
@@ -109,7 +112,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         states: &states,
         n_components: plan.n_components,
         n_rests: msf.rests.len(),
-        looked_to: msf.sigma[msf.sigma.len() - 1],
+        looked: &msf.sigma,
     });
     let cascade = merge_equal_clusters(&states);
     let labels = labels(plan, &spectrum, &cascade, &states, stages).map_err(|error| {

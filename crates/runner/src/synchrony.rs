@@ -46,8 +46,8 @@ pub struct Evidence<'a> {
     pub n_components: usize,
     /// In how many different states isolated oscillators come to rest; 0 where they do not.
     pub n_rests: usize,
-    /// σ up to which was looked.
-    pub looked_to: f64,
+    /// The σ that were looked at, ascending.
+    pub looked: &'a [f64],
 }
 
 impl Synchrony {
@@ -107,8 +107,7 @@ impl Evidence<'_> {
         let at_rest = self.stable.contains(0.0);
         let never = |why: String| format!("no ε synchronises all nodes: {why}");
         if self.stable.intervals.is_empty() {
-            let looked = four_digits(self.looked_to);
-            return never(format!("no σ up to {looked} was found stable"));
+            return never(format!("of {} none was found stable", looked(self.looked)));
         }
         if self.n_components > 1 && !at_rest {
             return never(format!("the network has {} components", self.n_components));
@@ -158,6 +157,12 @@ impl EpsilonRange {
     }
 }
 
+/// From where to where and at how many σ was looked, in words.
+pub fn looked(sigma: &[f64]) -> String {
+    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
+    format!("{} sigma from {from} to {to}", sigma.len())
+}
+
 /// σ₂ / σ₁ of an interval; none where it is infinite or not known.
 fn ratio(interval: &Interval) -> Option<f64> {
     match (interval.from, interval.upper()) {
@@ -202,7 +207,7 @@ mod tests {
             stable: &stable,
             n_components,
             n_rests,
-            looked_to: 50.0,
+            looked: &[0.0, 20.0, 50.0],
         };
         Synchrony::of(&evidence).verdict
     }
@@ -264,7 +269,7 @@ mod tests {
         );
         assert_eq!(
             verdict(4, &pairs, vec![]),
-            "no ε synchronises all nodes: no σ up to 50 was found stable"
+            "no ε synchronises all nodes: of 3 sigma from 0 to 50 none was found stable"
         );
     }
 }

@@ -114,6 +114,25 @@ fn orbits_on_two_fixed_points_are_told_with_a_zero_for_each() {
     assert!((ends[0] - 4.899).abs() < 0.2 && (ends[1] - 8.022).abs() < 0.4, "{ends:?}");
 }
 
+#[test]
+fn a_grid_above_the_window_finds_it_and_one_that_finds_nothing_says_where_it_looked() {
+    let above = rossler("\"auto\"").set("msf.sigma", "{ from = 10.0, to = 12.0, points = 3 }");
+    let (found, answer) = summary(&above, "1 2\n2 3\n");
+    let window = &found["msf"]["stable"][0];
+    let [from, to] = [0, 1].map(|end| window[end].as_f64().unwrap());
+    assert!((from - 0.187).abs() < 0.04 && (to - 4.61).abs() < 0.5, "{window} {}", answer.stderr);
+    let verdict = found["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.starts_with("all nodes synchronise for 0."), "{verdict}");
+    // The smallest σ looked at is 2000 / 256 = 7.8, above the window; λ_2 = −1.
+    let far = rossler("\"auto\"").set("msf.sigma", "{ from = 2000.0, to = 2400.0, points = 3 }");
+    let far = far.set("msf.step", "0.0005").set("msf.transient", "20").set("msf.average", "40");
+    let (nothing, answer) = summary(&far, "1 2\n2 3\n");
+    let verdict = nothing["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.contains("of 11 sigma from 7.8") && verdict.contains("to 2400"), "{verdict}");
+    assert!(answer.stdout.contains("none of 11 sigma from 7.8"), "{}", answer.stdout);
+    assert_eq!(nothing["cascade"][0]["epsilon"][0], 7.8125);
+}
+
 /// Rössler, x into x: the window is 0.187 to 4.61, a ratio of 24.7; some modes of a network.
 fn rossler(modes: &str) -> Toml {
     prediction()
