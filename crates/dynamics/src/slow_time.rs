@@ -46,7 +46,7 @@ pub fn slow_time(
 }
 
 /// The flow of an isolated oscillator.
-struct Isolated<O>(O);
+pub(crate) struct Isolated<O>(pub O);
 
 impl<O: Oscillator<D>, const D: usize> Flow<f64, D> for Isolated<O> {
     fn at(&self, state: [f64; D]) -> [f64; D] {

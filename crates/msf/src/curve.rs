@@ -5,7 +5,7 @@ use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
-use crate::{End, Interval, MsfError, StableRegion, origin};
+use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
 const ISOLATED_ORBITS: usize = 16;
@@ -18,6 +18,9 @@ pub struct Node {
     /// Coupling function H.
     pub coupling: Coupling,
 }
+
+/// A grid that begins above 0 is carried on below by so many halvings: a window may lie there.
+const HALVINGS: i32 = 8;
 
 /// What to compute.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -36,6 +39,16 @@ pub struct Request {
     pub instruction_set: InstructionSet,
 }
 
+impl Request {
+    /// The σ that are looked at: the grid, and where that begins above 0 its first σ halved eight
+    /// times, ascending.
+    pub fn looked_at(&self) -> Vec<f64> {
+        let first = self.sigma.first().copied().filter(|&first| first > 0.0);
+        let halved = |first: f64| (1..=HALVINGS).rev().map(move |k| first * 0.5f64.powi(k));
+        first.into_iter().flat_map(halved).chain(self.sigma.iter().copied()).collect()
+    }
+}
+
 /// What the isolated oscillator does, by its largest Lyapunov exponent Λ(0).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Isolated {
@@ -44,14 +57,15 @@ pub enum Isolated {
     Chaotic,
     /// Λ(0) = 0 within its errors: a periodic orbit, or chaos too weak to tell.
     Periodic,
-    /// Λ(0) < 0: it comes to rest at a fixed point, where all nodes are equal without any coupling.
+    /// Λ(0) < 0: it comes to rest at a fixed point. Nodes are equal there without any coupling, if all
+    /// come to the same one: [`MasterStability::rests`].
     AtRest,
 }
 
 /// The master stability function as computed.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MasterStability {
-    /// Grid of σ.
+    /// The σ that were looked at: [`Request::looked_at`].
     pub sigma: Vec<f64>,
     /// Λ at each σ, per unit of model time.
     pub lambda: Vec<Estimate>,
@@ -59,6 +73,9 @@ pub struct MasterStability {
     pub isolated: Estimate,
     /// What Λ(0) says.
     pub state: Isolated,
+    /// How many isolated oscillators, of those tried, end in each of the states in which they come to
+    /// rest, the most frequent first; none where Λ(0) is not below 0.
+    pub rests: Vec<usize>,
     /// The stable set {Λ < 0} as far as was looked; of several attractors, what is stable on each.
     pub stable: StableRegion,
     /// Each of them, the one of most orbits first, where orbits settle on several attractors; the
@@ -87,10 +104,16 @@ pub fn master_stability(
     let work = Work { node, request, progress };
     let mut seeds = Seeds::new(request.seed);
     let (curve, split) = work.curve(&mut seeds)?;
-    match split {
-        Some(sigma) => work.on_each_attractor(curve, sigma, &mut seeds),
-        None => Ok(curve),
+    let mut curve = match split {
+        Some(sigma) => work.on_each_attractor(curve, sigma, &mut seeds)?,
+        None => curve,
+    };
+    curve.rests = work.rests(&curve)?;
+    if curve.rests.len() > 1 {
+        curve.stable.exclude_origin();
+        curve.attractors.iter_mut().for_each(|attractor| attractor.stable.exclude_origin());
     }
+    Ok(curve)
 }
 
 /// One computation.
@@ -113,9 +136,19 @@ impl Work<'_> {
         1.0 / self.request.times.average
     }
 
+    /// Where the orbits of Λ(0) come to rest.
+    fn rests(&self, curve: &MasterStability) -> Result<Vec<usize>, MsfError> {
+        if curve.state != Isolated::AtRest {
+            return Ok(Vec::new());
+        }
+        let seeds: Vec<u64> = Seeds::new(self.request.seed).orbits().collect();
+        let Times { step, transient, .. } = self.request.times;
+        rest::counts(self.node.model, (step, transient), curve.isolated.mean, &seeds)
+    }
+
     /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.
     fn curve(&self, seeds: &mut Seeds) -> Result<(MasterStability, Option<f64>), MsfError> {
-        let (sigma, floor) = (&self.request.sigma, self.floor());
+        let (sigma, floor) = (self.request.looked_at(), self.floor());
         let isolated = seeds.orbits().map(|seed| Tangent { sigma: 0.0, seed }).collect::<Vec<_>>();
         let isolated = self.exponents(&isolated)?;
         let split = attractors::split(&[Column { sigma: 0.0, exponents: &isolated }], floor);
@@ -142,9 +175,8 @@ impl Work<'_> {
         let (certain, from) = origin::with(state, certain, &mut finder)?;
         let found = finder.zeros(&certain)?;
         let stable = region(&certain, &found.zeros, from);
-        let sigma = sigma.clone();
-        let curve =
-            MasterStability { sigma, lambda, isolated, state, stable, attractors: Vec::new() };
+        let (rests, attractors) = (Vec::new(), Vec::new());
+        let curve = MasterStability { sigma, lambda, isolated, state, rests, stable, attractors };
         Ok((curve, found.split))
     }
 

@@ -13,6 +13,7 @@ mod error;
 mod fit;
 mod origin;
 mod reach;
+mod rest;
 mod stable_region;
 mod zeros;
 

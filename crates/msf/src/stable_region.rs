@@ -9,8 +9,9 @@ pub enum End {
     Zero(Zero),
     /// At σ = 0.
     Origin {
-        /// Whether σ = 0 is stable itself: Λ(0) < 0, oscillators at rest. Otherwise Λ(0) = 0, a
-        /// periodic orbit, and Λ is negative right above.
+        /// Whether nodes become equal at σ = 0: Λ(0) < 0, oscillators at rest in the same state.
+        /// Otherwise they rest in different ones, or Λ(0) = 0, a periodic orbit, and Λ is negative
+        /// right above.
         included: bool,
     },
     /// Nowhere that is known: Λ < 0 up to the end of what was looked at.
@@ -92,7 +93,8 @@ pub struct StableRegion {
 }
 
 impl StableRegion {
-    /// Whether a mode with this σ = −ελ is damped. Only where Λ(0) < 0 is one with σ = 0.
+    /// Whether a mode with this σ = −ελ is damped. One with σ = 0 is where Λ(0) < 0 and oscillators
+    /// come to rest in the same state.
     pub fn contains(&self, sigma: f64) -> bool {
         self.intervals.iter().any(|interval| interval.contains(sigma))
     }
@@ -117,6 +119,15 @@ impl StableRegion {
         match self.intervals[..] {
             [Interval { from: End::Zero(zero), to: End::Looked { .. } }] => Some(zero),
             _ => None,
+        }
+    }
+
+    /// Takes σ = 0 out: without coupling nodes do not become equal.
+    pub(crate) fn exclude_origin(&mut self) {
+        for interval in &mut self.intervals {
+            if let End::Origin { included } = &mut interval.from {
+                *included = false;
+            }
         }
     }
 

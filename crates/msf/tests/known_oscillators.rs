@@ -104,6 +104,21 @@ fn a_grid_that_starts_inside_a_stable_range_finds_the_zero_below_it() {
 }
 
 #[test]
+fn a_grid_that_starts_above_a_window_finds_the_window() {
+    // Rössler, x into x: stable for 0.187 < σ < 4.61.
+    let rossler = Model::Rossler(Rossler::default());
+    let msf = quick(rossler, X_TO_X, vec![10.0, 11.0, 12.0]);
+    assert_eq!((msf.sigma.len(), msf.lambda.len()), (11, 11));
+    assert_eq!((msf.sigma[0], msf.sigma[7]), (10.0 / 256.0, 5.0));
+    let [low, high] = zeros(&msf)[..] else { panic!("{:?}", msf.stable) };
+    assert!(low.falling && (low.sigma - 0.187).abs() < 0.01 + 4.0 * low.standard_error, "{low:?}");
+    assert!(
+        !high.falling && (high.sigma - 4.61).abs() < 0.1 + 4.0 * high.standard_error,
+        "{high:?}"
+    );
+}
+
+#[test]
 fn a_grid_of_cells_thirty_times_as_wide_as_sigma_c_finds_it() {
     let msf = quick(LORENZ.model, X_TO_Y, vec![0.0, 250.0, 500.0]);
     let zero = msf.stable.sigma_c().expect("the set is sigma > sigma_c");
@@ -118,6 +133,26 @@ fn a_fixed_point_is_at_rest_and_stable_from_the_origin_on() {
     assert_eq!(msf.state, Isolated::AtRest);
     assert_eq!(msf.stable.intervals[0].from, End::Origin { included: true });
     assert!(msf.stable.contains(0.0));
+}
+
+#[test]
+fn nodes_at_rest_in_two_different_states_are_not_equal_without_coupling() {
+    // Lorenz with 1 < r < 24: two fixed points with the same exponents, whatever the coupling x to x.
+    let lorenz = Model::Lorenz(Lorenz { alpha: 10.0, r: 10.0, b: 8.0 / 3.0 });
+    let msf = quick(lorenz, X_TO_X, vec![0.0, 1.0, 2.0]);
+    assert_eq!(msf.state, Isolated::AtRest);
+    assert!(msf.rests.len() == 2 && msf.rests.iter().sum::<usize>() == 16, "{:?}", msf.rests);
+    assert_eq!(msf.stable.intervals[0].from, End::Origin { included: false });
+    assert!(!msf.stable.contains(0.0) && msf.stable.contains(1e-9));
+    // z into y tells them apart by Λ too; below r = 1 there is one, the origin.
+    let apart = quick(lorenz, from_to(2, 1), vec![0.0, 5.0, 10.0, 15.0]);
+    assert_eq!(apart.rests.len(), 2);
+    assert!(
+        !apart.stable.contains(0.0) && apart.attractors.iter().all(|a| !a.stable.contains(0.0))
+    );
+    let one = Model::Lorenz(Lorenz { alpha: 10.0, r: 0.5, b: 8.0 / 3.0 });
+    let one = quick(one, X_TO_X, vec![0.0, 1.0, 2.0]);
+    assert!(one.rests == [16] && one.stable.contains(0.0), "{one:?}");
 }
 
 #[test]

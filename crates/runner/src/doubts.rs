@@ -62,9 +62,14 @@ fn warn_of_rest(msf: &MasterStability, warnings: &mut Warnings) {
     if msf.state == Isolated::Chaotic {
         return;
     }
+    let by_itself = if msf.rests.len() > 1 {
+        "an oscillator by itself comes to rest in one of several states, in the same one as many others"
+    } else {
+        "an oscillator by itself forgets where it started"
+    };
     let message = format!(
-        "Lambda(0) = {} ± {} is not above zero within its error: an oscillator by itself forgets where \
-         it started, so that small errors are no sign of coupling",
+        "Lambda(0) = {} ± {} is not above zero within its error: {by_itself}, so that small errors are \
+         no sign of coupling",
         four_digits(isolated.mean),
         two_digits(isolated.standard_error)
     );

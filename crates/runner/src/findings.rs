@@ -90,6 +90,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let states = stages
         .measured("clusters", n_states, |progress| {
             let mut states = known.states(stable, plan.rule, progress)?;
+            if stable.intervals.is_empty() {
+                known.end_where_the_look_began(&mut states, msf.sigma[0]);
+            }
             let matrix = plan.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, plan.rule, EQUITABLE)?;
             Ok(states)
@@ -119,7 +122,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         critical: &critical,
         states: &states,
         n_components: plan.n_components,
-        looked_to: msf.sigma[msf.sigma.len() - 1],
+        n_rests: msf.rests.len(),
+        looked: &msf.sigma,
         fastest_rate,
     });
     let cascade = merge_equal_clusters(&states);

@@ -15,6 +15,7 @@ use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
 use crate::stability::with_error;
+use crate::synchrony::looked;
 use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
@@ -86,23 +87,26 @@ fn lambda(findings: &Findings) -> String {
 fn isolated(findings: &Findings) -> String {
     let isolated = findings.msf.isolated;
     let says = match findings.msf.state {
-        Isolated::Chaotic => "chaotic",
-        Isolated::Periodic => "periodic, 0 within its errors",
-        Isolated::AtRest => "at rest, nodes become equal without coupling",
+        Isolated::Chaotic => "chaotic".to_owned(),
+        Isolated::Periodic => "periodic, 0 within its errors".to_owned(),
+        Isolated::AtRest => match findings.msf.rests.len() {
+            0 | 1 => "at rest, nodes become equal without coupling".to_owned(),
+            several => format!(
+                "at rest in {several} different states, nodes in the same one become equal without \
+                 coupling"
+            ),
+        },
     };
     format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
 }
 
 fn stable(findings: &Findings) -> String {
     let MasterStability { stable, sigma, .. } = &findings.msf;
-    let looked = format!(
-        "looked at from {} to {}",
-        four_digits(sigma[0]),
-        four_digits(sigma[sigma.len() - 1])
-    );
     if stable.intervals.is_empty() {
-        return format!("no sigma that was {looked}: nothing is predicted to synchronise");
+        return format!("none of {}: nothing is predicted to synchronise", looked(sigma));
     }
+    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
+    let looked = format!("looked at from {from} to {to}");
     let intervals: Vec<String> = stable.intervals.iter().map(interval).collect();
     let beyond = if stable.is_unbounded() { ", and taken to be stable beyond" } else { "" };
     format!("{} ({looked}{beyond})", intervals.join(", "))

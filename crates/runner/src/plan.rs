@@ -99,7 +99,7 @@ impl Sweep {
 impl Plan {
     /// Steps of all tangent vectors of the MSF, refinement of one zero included.
     pub fn msf_steps(&self) -> u64 {
-        (self.msf.sigma.len() as u64 + 16 + 64) * self.msf.times.steps()
+        (self.msf.looked_at().len() as u64 + 16 + 64) * self.msf.times.steps()
     }
 }
 

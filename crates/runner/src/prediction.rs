@@ -26,6 +26,18 @@ impl Known<'_> {
         Some(self.fastest.filter(|&lambda| lambda < 0.0).map_or(0.0, |lambda| end / -lambda))
     }
 
+    /// Takes back what was said of ε at which the slowest mode has a σ below this one, the smallest
+    /// that was looked at: where nothing was found stable, something may be so there.
+    pub fn end_where_the_look_began(&self, states: &mut [State], sigma: f64) {
+        let slowest = self.spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0);
+        if let (Some(last), Some(lambda)) = (states.last_mut(), slowest)
+            && sigma > 0.0
+        {
+            last.epsilon.0 = last.epsilon.0.max(sigma / -lambda);
+            last.truncated = true;
+        }
+    }
+
     fn is_whole(&self) -> bool {
         self.spectrum.eigenvalues.len() == self.spectrum.eigenvectors[0].len()
     }

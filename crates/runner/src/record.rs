@@ -119,6 +119,10 @@ pub struct MsfRecord {
     pub lyapunov_isolated_standard_error: f64,
     /// What that says: `chaotic`, `periodic` or `at rest`.
     pub isolated_state: &'static str,
+    /// How many isolated oscillators ended in each of the states in which they come to rest; only
+    /// where they do.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rests: Vec<usize>,
     /// The σ between which was looked; Λ(0) is known besides.
     pub looked: [f64; 2],
     /// Stable intervals of σ, [from, to]; no upper end where the look ends stable.
@@ -157,7 +161,7 @@ pub enum EndRecord {
         standard_error: f64,
         refined: bool,
     },
-    /// σ = 0, stable itself or only the limit.
+    /// σ = 0, where nodes become equal themselves, or only the limit.
     Origin {
         included: bool,
     },
@@ -338,6 +342,7 @@ fn msf_record(findings: &Findings) -> MsfRecord {
         lyapunov_isolated: msf.isolated.mean,
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
         isolated_state: word(msf.state),
+        rests: msf.rests.clone(),
         looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
         stable_ends: ends(&msf.stable),

@@ -40,11 +40,7 @@ pub fn warn(plan: &Plan, msf: &msf::MasterStability, warnings: &mut Warnings) {
         warnings.add("msf.attractors", several(&msf.attractors));
     }
     if msf.state == Isolated::AtRest {
-        let message = format!(
-            "an isolated oscillator comes to rest, Λ(0) = {}: nodes become equal even without coupling",
-            with_error(msf.isolated.mean, msf.isolated.standard_error)
-        );
-        warnings.add("msf.isolated_state", message);
+        warnings.add("msf.isolated_state", at_rest(msf));
     }
     if plan.n_components > 1 && !msf.stable.contains(0.0) {
         let n = plan.n_components;
@@ -54,6 +50,22 @@ pub fn warn(plan: &Plan, msf: &msf::MasterStability, warnings: &mut Warnings) {
         );
         warnings.add("network.components", message);
     }
+}
+
+fn at_rest(msf: &msf::MasterStability) -> String {
+    let exponent = with_error(msf.isolated.mean, msf.isolated.standard_error);
+    let rests = format!("an isolated oscillator comes to rest, Λ(0) = {exponent}");
+    if msf.rests.len() <= 1 {
+        return format!("{rests}: nodes become equal even without coupling");
+    }
+    let counts: Vec<String> = msf.rests.iter().map(usize::to_string).collect();
+    format!(
+        "{rests}, but of {} with different initial states {} ended in {} different states: nodes do not \
+         become equal by themselves, and what is predicted holds for nodes in the same one only",
+        msf.rests.iter().sum::<usize>(),
+        counts.join(" and "),
+        counts.len()
+    )
 }
 
 fn unrefined(plan: &Plan, zero: Zero) -> String {

@@ -2,7 +2,9 @@
 //!
 //! A window (σ₁, σ₂) of the stable set holds all transverse modes at σ₁ / |λ_2| < ε < σ₂ / |λ_N|, which
 //! exists when the eigenratio λ_N / λ_2 is below the window's ratio σ₂ / σ₁ (M. Barahona & L. M. Pecora,
-//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0.
+//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0
+//! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
+//! same one.
 
 use clustering::State;
 use msf::{CriticalCoupling, End, Interval, StableRegion};
@@ -42,8 +44,10 @@ pub struct Evidence<'a> {
     /// Predicted states, neighbours of equal clusters not yet merged.
     pub states: &'a [State],
     pub n_components: usize,
-    /// σ up to which was looked.
-    pub looked_to: f64,
+    /// In how many different states isolated oscillators come to rest; 0 where they do not.
+    pub n_rests: usize,
+    /// The σ that were looked at, ascending.
+    pub looked: &'a [f64],
     /// |λ_N|, or what it is at least.
     pub fastest_rate: f64,
 }
@@ -112,7 +116,7 @@ impl Evidence<'_> {
         let Some(above) = assumed_above(self.stable, self.fastest_rate) else {
             return String::new();
         };
-        let looked = four_digits(self.looked_to);
+        let looked = four_digits(self.looked.last().copied().unwrap_or_default());
         match ranges.last() {
             Some(range) if range.to.is_none() && above <= range.from => {
                 format!(", if σ beyond {looked}, where nothing was looked at, are stable")
@@ -129,15 +133,20 @@ impl Evidence<'_> {
         let at_rest = self.stable.contains(0.0);
         let never = |why: String| format!("no ε synchronises all nodes: {why}");
         if self.stable.intervals.is_empty() {
-            let looked = four_digits(self.looked_to);
-            return never(format!("no σ up to {looked} was found stable"));
+            return never(format!("of {} none was found stable", looked(self.looked)));
         }
         if self.n_components > 1 && !at_rest {
             return never(format!("the network has {} components", self.n_components));
         }
         if !ranges.is_empty() {
             let ranges: Vec<String> = ranges.iter().map(|range| range.in_words(at_rest)).collect();
-            let rest = if at_rest { ", since each comes to rest by itself" } else { "" };
+            let rest = match self.n_rests {
+                0 | 1 if at_rest => ", since each comes to rest by itself".to_owned(),
+                0 | 1 => String::new(),
+                n => format!(
+                    " if they come to the same one of the {n} states in which isolated oscillators rest"
+                ),
+            };
             return format!("all nodes synchronise for {}{rest}", ranges.join(" and for "));
         }
         let ratios: Vec<String> =
@@ -174,6 +183,12 @@ impl EpsilonRange {
     }
 }
 
+/// From where to where and at how many σ was looked, in words.
+pub fn looked(sigma: &[f64]) -> String {
+    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
+    format!("{} sigma from {from} to {to}", sigma.len())
+}
+
 /// σ₂ / σ₁ of an interval; none where it is infinite or not known.
 fn ratio(interval: &Interval) -> Option<f64> {
     match (interval.from, interval.upper()) {
@@ -192,6 +207,16 @@ mod tests {
 
     /// The verdict on a network of links of weight 1, with all of its modes.
     fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
+        verdict_at_rest(n_nodes, links, intervals, 0)
+    }
+
+    /// The same where isolated oscillators rest in so many states.
+    fn verdict_at_rest(
+        n_nodes: usize,
+        links: &[(usize, usize)],
+        intervals: Vec<Interval>,
+        n_rests: usize,
+    ) -> String {
         let links: Vec<_> = links.iter().map(|&(i, j)| (i, j, 1.0)).collect();
         let labels = (0..n_nodes).map(|node| node.to_string()).collect();
         let network = Network::undirected(labels, &links).unwrap();
@@ -207,7 +232,8 @@ mod tests {
             states: &states,
             stable: &stable,
             n_components,
-            looked_to: 50.0,
+            n_rests,
+            looked: &[0.0, 20.0, 50.0],
             fastest_rate: fastest.map_or(0.0, f64::abs),
         };
         Synchrony::of(&evidence).verdict
@@ -261,6 +287,17 @@ mod tests {
     }
 
     #[test]
+    fn oscillators_at_rest_in_different_states_synchronise_in_the_same_one_only() {
+        let from_origin = vec![Interval::known(0.0, None)];
+        let expected = "all nodes synchronise for every ε > 0 if they come to the same one of the 2 \
+                        states in which isolated oscillators rest";
+        assert_eq!(verdict_at_rest(3, &PATH, from_origin.clone(), 2), expected);
+        let pairs = [(0, 1), (2, 3)];
+        let expected = "no ε synchronises all nodes: the network has 2 components";
+        assert_eq!(verdict_at_rest(4, &pairs, from_origin, 2), expected);
+    }
+
+    #[test]
     fn components_synchronise_only_where_each_node_comes_to_rest() {
         let pairs = [(0, 1), (2, 3)];
         let above = Interval::known(1.0, None);
@@ -275,7 +312,7 @@ mod tests {
         );
         assert_eq!(
             verdict(4, &pairs, vec![]),
-            "no ε synchronises all nodes: no σ up to 50 was found stable"
+            "no ε synchronises all nodes: of 3 sigma from 0 to 50 none was found stable"
         );
     }
 }

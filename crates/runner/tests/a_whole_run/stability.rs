@@ -71,6 +71,29 @@ fn oscillators_at_rest_synchronise_in_pieces_and_without_coupling() {
 }
 
 #[test]
+fn oscillators_at_rest_in_two_states_are_not_said_to_become_equal_by_themselves() {
+    let experiment = prediction()
+        .set("oscillator.lorenz.r", "10.0")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 2.0, points = 3 }")
+        .set("msf.transient", "100")
+        .set("msf.average", "400");
+    let (pieces, answer) = summary(&experiment, "1 2\n3 4\n");
+    let rests = pieces["msf"]["rests"].as_array().unwrap();
+    assert!(pieces["msf"]["isolated_state"] == "at rest" && rests.len() == 2, "{rests:?}");
+    let message = warned(&pieces, "msf.isolated_state");
+    assert!(message.contains("in 2 different states") && message.contains("same one only"));
+    assert!(!answer.stdout.contains("at rest, nodes become equal"), "{}", answer.stdout);
+    assert_eq!(pieces["msf"]["stable_ends"][0][0]["included"], false);
+    assert_eq!(pieces["cascade"][0]["clusters"], json!([["1", "2"], ["3", "4"]]));
+    let verdict = &pieces["global_synchrony"]["verdict"];
+    assert_eq!(*verdict, "no ε synchronises all nodes: the network has 2 components");
+    let (connected, _) = summary(&experiment, "1 2\n2 3\n");
+    let verdict = connected["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.ends_with("the same one of the 2 states in which isolated oscillators rest"));
+}
+
+#[test]
 fn orbits_on_two_fixed_points_are_told_with_a_zero_for_each() {
     let experiment = prediction()
         .set("oscillator.lorenz.r", "10.0")
@@ -89,6 +112,25 @@ fn orbits_on_two_fixed_points_are_told_with_a_zero_for_each() {
         .collect();
     ends.sort_by(f64::total_cmp);
     assert!((ends[0] - 4.899).abs() < 0.2 && (ends[1] - 8.022).abs() < 0.4, "{ends:?}");
+}
+
+#[test]
+fn a_grid_above_the_window_finds_it_and_one_that_finds_nothing_says_where_it_looked() {
+    let above = rossler("\"auto\"").set("msf.sigma", "{ from = 10.0, to = 12.0, points = 3 }");
+    let (found, answer) = summary(&above, "1 2\n2 3\n");
+    let window = &found["msf"]["stable"][0];
+    let [from, to] = [0, 1].map(|end| window[end].as_f64().unwrap());
+    assert!((from - 0.187).abs() < 0.04 && (to - 4.61).abs() < 0.5, "{window} {}", answer.stderr);
+    let verdict = found["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.starts_with("all nodes synchronise for 0."), "{verdict}");
+    // The smallest σ looked at is 2000 / 256 = 7.8, above the window; λ_2 = −1.
+    let far = rossler("\"auto\"").set("msf.sigma", "{ from = 2000.0, to = 2400.0, points = 3 }");
+    let far = far.set("msf.step", "0.0005").set("msf.transient", "20").set("msf.average", "40");
+    let (nothing, answer) = summary(&far, "1 2\n2 3\n");
+    let verdict = nothing["global_synchrony"]["verdict"].as_str().unwrap();
+    assert!(verdict.contains("of 11 sigma from 7.8") && verdict.contains("to 2400"), "{verdict}");
+    assert!(answer.stdout.contains("none of 11 sigma from 7.8"), "{}", answer.stdout);
+    assert_eq!(nothing["cascade"][0]["epsilon"][0], 7.8125);
 }
 
 /// Rössler, x into x: the window is 0.187 to 4.61, a ratio of 24.7; some modes of a network.
