@@ -5,9 +5,12 @@
 use spectra::Spectrum;
 use sprs::CsMatViewI;
 
-use crate::spread::{Spread, spreads};
+use crate::spread::{Spread, largest_distance, spreads};
 use crate::tolerance::exact_tolerance;
 use crate::{ClusterRule, ClusteringError, Equitability, Partition, State, equitable};
+
+/// Up to this many nodes of a cluster all pairs are held against a threshold.
+const ALL_PAIRS: usize = 300;
 
 /// The kind of a cluster, from the strictest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,11 +41,13 @@ pub struct ClusterLabel {
     /// Its kind.
     pub kind: ClusterKind,
     /// Largest δe of its first node and any other, and, under a threshold, of the node farthest from
-    /// that and any other; for the kind `exact` it is rounding. No pair is further apart than twice
+    /// that and any other, and of all pairs of up to 300 nodes where these do not decide whether the
+    /// threshold is exceeded; for the kind `exact` it is rounding. No pair is further apart than twice
     /// that.
     pub spread: f64,
-    /// Whether that exceeds the threshold: its nodes are linked through others only.
-    pub exceeds_threshold: bool,
+    /// Whether some pair exceeds the threshold: its nodes are linked through others only. None where
+    /// that is not known, in a cluster of more nodes.
+    pub exceeds_threshold: Option<bool>,
     /// Its deviation from equitable, as [`Equitability::deviations`] has it.
     pub deviation: f64,
     /// How many exact clusters of two nodes or more an approximate one holds: the cells it falls into.
@@ -58,7 +63,11 @@ impl ClusterLabel {
         Self {
             kind,
             spread: self.spread.max(other.spread),
-            exceeds_threshold: self.exceeds_threshold || other.exceeds_threshold,
+            exceeds_threshold: match (self.exceeds_threshold, other.exceeds_threshold) {
+                (Some(true), _) | (_, Some(true)) => Some(true),
+                (Some(false), Some(false)) => Some(false),
+                _ => None,
+            },
             deviation: self.deviation.max(other.deviation),
             n_exact_parts: parts.map(|label| label.n_exact_parts).min().unwrap_or(0),
         }
@@ -83,7 +92,9 @@ impl StateLabels {
     ///
     /// - `stretches`: the states that were merged into it, or the state alone.
     ///
-    /// O(n m + links) for n nodes in clusters where each stretch has the modes of the one before.
+    /// O(n m + links) for n nodes in clusters where each stretch has the modes of the one before, and
+    /// O(n² m) for clusters of n ≤ 300 nodes of which the largest δe of one node leaves open whether
+    /// some pair exceeds the threshold.
     ///
     /// # Errors
     /// Those of [`crate::EigenvectorDistance::new`] and [`equitable`].
@@ -102,8 +113,20 @@ impl StateLabels {
         let equitability = equitable(matrix, partition, tolerance)?;
         let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
         let mut spreads = spreads(spectrum, partition, &partition.first_nodes(), &sets)?;
-        if let ClusterRule::Threshold(_) = rule {
+        let mut exceeds = vec![Some(false); spreads.len()];
+        if let ClusterRule::Threshold(threshold) = rule {
+            let bounds: Vec<f64> = spreads.iter().map(|spread| 2.0 * spread.distance).collect();
             spreads = widest(spreads, spectrum, partition, &sets)?;
+            for (cluster, nodes) in partition.clusters().iter().enumerate() {
+                let spread = &mut spreads[cluster].distance;
+                let is_open = *spread <= threshold && threshold < bounds[cluster];
+                let is_small = nodes.len() <= ALL_PAIRS;
+                if is_open && is_small {
+                    *spread = spread.max(largest_distance(spectrum, nodes, &sets)?);
+                }
+                let is_known = *spread > threshold || !is_open || is_small;
+                exceeds[cluster] = is_known.then_some(*spread > threshold);
+            }
         }
         let parts = parts(state);
         let label = |((cluster, spread), size): ((usize, Spread), usize)| {
@@ -116,10 +139,7 @@ impl StateLabels {
             ClusterLabel {
                 kind,
                 spread: spread.distance,
-                exceeds_threshold: match rule {
-                    ClusterRule::Exact => false,
-                    ClusterRule::Threshold(threshold) => spread.distance > threshold,
-                },
+                exceeds_threshold: exceeds[cluster],
                 deviation: equitability.deviations[cluster],
                 n_exact_parts: if n_cells > 1 { n_shared } else { 0 },
             }

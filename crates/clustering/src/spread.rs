@@ -46,6 +46,46 @@ pub(crate) fn spreads(
         .filter(|&(node, &cluster)| node != from[cluster])
         .map(|(node, &cluster)| Pair { cluster, node, from: from[cluster], sum: 0.0, square: 0.0 })
         .collect();
+    over_sets(spectrum, sets, partition.n_nodes(), &mut pairs, |pair, distance, is_rounding| {
+        let spread = &mut spreads[pair.cluster];
+        spread.is_rounding &= is_rounding;
+        if distance > spread.distance {
+            (spread.distance, spread.farthest) = (distance, pair.node);
+        }
+    })?;
+    Ok(spreads)
+}
+
+/// The largest δe of any two of these nodes under any of the sets. O(n² m) for n nodes.
+///
+/// # Errors
+/// Those of [`spreads`].
+pub(crate) fn largest_distance(
+    spectrum: &Spectrum,
+    nodes: &[usize],
+    sets: &[&[usize]],
+) -> Result<f64, ClusteringError> {
+    let to = |(place, &from): (usize, &usize)| {
+        let pair = move |&node: &usize| Pair { cluster: 0, node, from, sum: 0.0, square: 0.0 };
+        nodes[place + 1..].iter().map(pair)
+    };
+    let mut pairs: Vec<Pair> = nodes.iter().enumerate().flat_map(to).collect();
+    let mut largest = 0.0f64;
+    let n_nodes = spectrum.eigenvectors[0].len();
+    over_sets(spectrum, sets, n_nodes, &mut pairs, |_, distance, _| {
+        largest = largest.max(distance);
+    })?;
+    Ok(largest)
+}
+
+/// Shows every pair under every set, with its δe and whether that is rounding.
+fn over_sets(
+    spectrum: &Spectrum,
+    sets: &[&[usize]],
+    n_nodes: usize,
+    pairs: &mut [Pair],
+    mut show: impl FnMut(&Pair, f64, bool),
+) -> Result<(), ClusteringError> {
     let mut before: &[usize] = &[];
     for &modes in sets {
         if !are_among(before, modes) {
@@ -54,24 +94,19 @@ pub(crate) fn spreads(
         }
         let chosen = chosen_eigenspaces(spectrum, modes)?;
         let tolerance = exact_tolerance(spectrum, &chosen);
-        let is_known = check_tolerance(tolerance, partition.n_nodes()).is_ok();
+        let is_known = check_tolerance(tolerance, n_nodes).is_ok();
         for &space in &chosen {
             if before.binary_search(&transverse(&spectrum.eigenspaces[space]).start).is_err() {
-                add(spectrum, space, &mut pairs);
+                add(spectrum, space, pairs);
             }
         }
         let n_modes = modes.len().max(1) as f64;
-        for Pair { cluster, node, sum, square, .. } in &pairs {
-            let spread = &mut spreads[*cluster];
-            spread.is_rounding &= is_known && square.sqrt() <= tolerance;
-            let distance = sum / n_modes;
-            if distance > spread.distance {
-                (spread.distance, spread.farthest) = (distance, *node);
-            }
+        for pair in pairs.iter() {
+            show(pair, pair.sum / n_modes, is_known && pair.square.sqrt() <= tolerance);
         }
         before = modes;
     }
-    Ok(spreads)
+    Ok(())
 }
 
 /// A node and the one of its cluster that distances are from.

@@ -84,7 +84,12 @@ fn row(
         modes(|(_, most)| most).max().unwrap_or(0).to_string(),
         of.label
             .filter(|_| is_under_threshold)
-            .map_or_else(String::new, |label| label.exceeds_threshold.to_string()),
+            .map_or("", |label| match label.exceeds_threshold {
+                Some(true) => "true",
+                Some(false) => "false",
+                None => "unknown",
+            })
+            .to_owned(),
         of.label.map_or_else(String::new, |label| label.n_exact_parts.to_string()),
     ]
 }

@@ -48,7 +48,8 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
 
 /// Clusters whose nodes are linked through others only.
 fn beyond<'a>(threshold: f64, labels: impl Iterator<Item = &'a ClusterLabel>) -> String {
-    let beyond = labels.filter(|label| label.exceeds_threshold).map(|label| label.spread);
+    let beyond =
+        labels.filter(|label| label.exceeds_threshold == Some(true)).map(|label| label.spread);
     let (n_beyond, widest) = beyond.fold((0, 0.0), |(n, widest), x| (n + 1, f64::max(widest, x)));
     if n_beyond == 0 {
         return String::new();

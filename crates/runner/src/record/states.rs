@@ -65,9 +65,9 @@ pub struct LabelRecord {
     pub spread: f64,
     /// Largest difference of its nodes' total weights to one cluster, relative to their strength.
     pub deviation: f64,
-    /// Whether the spread exceeds the threshold; none for exact clusters.
+    /// Under a threshold, whether the largest δe exceeds it; null where that is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub exceeds_threshold: Option<bool>,
+    pub exceeds_threshold: Option<Option<bool>>,
     /// The exact clusters that an approximate one holds.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub holds_exact: Vec<Vec<String>>,
