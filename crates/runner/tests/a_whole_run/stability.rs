@@ -126,11 +126,11 @@ fn a_grid_above_the_window_finds_it_and_one_that_finds_nothing_says_where_it_loo
     // The smallest σ looked at is 2000 / 256 = 7.8, above the window; λ_2 = −1.
     let far = rossler("\"auto\"").set("msf.sigma", "{ from = 2000.0, to = 2400.0, points = 3 }");
     let far = far.set("msf.step", "0.0005").set("msf.transient", "20").set("msf.average", "40");
-    let (nothing, answer) = summary(&far, "1 2\n2 3\n");
+    let (nothing, _) = summary(&far, "1 2\n2 3\n");
     let verdict = nothing["global_synchrony"]["verdict"].as_str().unwrap();
     assert!(verdict.contains("of 11 sigma from 7.8") && verdict.contains("to 2400"), "{verdict}");
-    assert!(answer.stdout.contains("none of 11 sigma from 7.8"), "{}", answer.stdout);
-    assert_eq!(nothing["cascade"][0]["epsilon"][0], 7.8125);
+    let lowest = nothing["cascade"][0]["epsilon"][0].as_f64().unwrap();
+    assert!((lowest - 7.8125).abs() < 1e-9, "{lowest}");
 }
 
 /// Rössler, x into x: the window is 0.187 to 4.61, a ratio of 24.7; some modes of a network.
