@@ -16,6 +16,7 @@ mod differences;
 mod error;
 mod instruction_set;
 mod integrators;
+mod isolated_orbit;
 mod kernel;
 mod kicks;
 mod linear_step;

@@ -14,10 +14,9 @@
 
 use nalgebra::{Complex, DMatrix, Schur};
 
-use crate::integrators::rk4::{self, Flow};
+use crate::isolated_orbit::IsolatedOrbit;
 use crate::oscillators::with_oscillator;
-use crate::random::initial_states;
-use crate::{Coupling, Dual, DynamicsError, ESCAPE_RADIUS, Model, Oscillator, Scalar};
+use crate::{Coupling, Dual, DynamicsError, Model, Oscillator};
 
 /// The orbit is followed with the step in question divided by this.
 const FINER: f64 = 4.0;
@@ -160,34 +159,19 @@ fn growth(z: Complex<f64>) -> f64 {
     (one + z * (one + z * (one / 2.0 + z * (one / 6.0 + z / 24.0)))).norm()
 }
 
-/// The flow of an oscillator by itself.
-struct Isolated<O>(O);
-
-impl<O: Oscillator<D>, S: Scalar, const D: usize> Flow<S, D> for Isolated<O> {
-    fn at(&self, state: [S; D]) -> [S; D] {
-        self.0.flow(state)
-    }
-}
-
 fn jacobians<O: Oscillator<D>, const D: usize>(
     oscillator: O,
     step: f64,
     seed: u64,
 ) -> Result<Vec<DMatrix<f64>>, DynamicsError> {
-    let flow = Isolated(oscillator);
-    let mut state = initial_states::<O, D>(1, seed)[0];
+    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
     let mut jacobians = Vec::with_capacity(SAMPLES);
-    let mut steps = 0;
     while jacobians.len() < SAMPLES {
         let until = if jacobians.is_empty() { TRANSIENT } else { STRIDE };
-        for _ in 0..until {
-            state = rk4::step(&flow, state, step);
-        }
-        steps += until;
-        let here = jacobian(oscillator, state);
-        let bounded = state.iter().all(|x| x.abs() < ESCAPE_RADIUS);
-        if !(bounded && here.iter().all(|entry| entry.is_finite())) {
-            return Err(DynamicsError::Escaped { time: f64::from(steps) * step });
+        (0..until).for_each(|_| orbit.advance());
+        let here = jacobian(oscillator, orbit.bounded()?);
+        if !here.iter().all(|entry| entry.is_finite()) {
+            return Err(orbit.escaped());
         }
         jacobians.push(here);
     }

@@ -3,11 +3,9 @@
 use rayon::prelude::*;
 
 use crate::error::{check_times, whole};
-use crate::integrators::rk4;
+use crate::isolated_orbit::IsolatedOrbit;
 use crate::oscillators::with_oscillator;
-use crate::random::initial_states;
-use crate::slow_time::Isolated;
-use crate::{DynamicsError, ESCAPE_RADIUS, Model, Oscillator};
+use crate::{DynamicsError, Model, Oscillator};
 
 /// The states of isolated oscillators after this time, component by component, in the order of their
 /// seeds.
@@ -19,7 +17,7 @@ use crate::{DynamicsError, ESCAPE_RADIUS, Model, Oscillator};
 ///
 /// # Errors
 /// [`DynamicsError::BadStep`] and [`DynamicsError::BadTime`] for times that make no sense;
-/// [`DynamicsError::Escaped`] when an orbit leaves the ball of radius [`ESCAPE_RADIUS`].
+/// [`DynamicsError::Escaped`] when an orbit leaves the ball of radius [`crate::ESCAPE_RADIUS`].
 pub fn settled(
     model: Model,
     step: f64,
@@ -38,12 +36,10 @@ fn of<O: Oscillator<D>, const D: usize>(
     n_steps: u64,
     seed: u64,
 ) -> Result<Vec<f64>, DynamicsError> {
-    let mut state = initial_states::<O, D>(1, seed)[0];
-    for number in 1..=n_steps {
-        state = rk4::step(&Isolated(oscillator), state, step);
-        if !state.iter().all(|x| x.abs() <= ESCAPE_RADIUS) {
-            return Err(DynamicsError::Escaped { time: number as f64 * step });
-        }
+    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
+    for _ in 0..n_steps {
+        orbit.advance();
+        orbit.bounded()?;
     }
-    Ok(state.to_vec())
+    Ok(orbit.state().to_vec())
 }

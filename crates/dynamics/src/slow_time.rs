@@ -11,10 +11,9 @@
 //! burst, whatever the pauses between bursts.
 
 use crate::error::check_times;
-use crate::integrators::rk4::{self, Flow};
+use crate::isolated_orbit::IsolatedOrbit;
 use crate::oscillators::with_oscillator;
-use crate::random::initial_states;
-use crate::{DynamicsError, ESCAPE_RADIUS, Model, Oscillator};
+use crate::{DynamicsError, Model, Oscillator};
 
 /// The stretch of orbit is this many slow times long, unless these are too long for it.
 const CYCLES: f64 = 20.0;
@@ -34,7 +33,7 @@ const SETTLED: f64 = 0.8;
 ///
 /// # Errors
 /// [`DynamicsError::BadStep`] for a step that makes no sense; [`DynamicsError::Escaped`] when the orbit
-/// leaves the ball of radius [`ESCAPE_RADIUS`].
+/// leaves the ball of radius [`crate::ESCAPE_RADIUS`].
 pub fn slow_time(
     model: Model,
     component: usize,
@@ -45,31 +44,19 @@ pub fn slow_time(
     with_oscillator!(model, oscillator => of(oscillator, component, step, seed))
 }
 
-/// The flow of an isolated oscillator.
-pub(crate) struct Isolated<O>(pub O);
-
-impl<O: Oscillator<D>, const D: usize> Flow<f64, D> for Isolated<O> {
-    fn at(&self, state: [f64; D]) -> [f64; D] {
-        self.0.flow(state)
-    }
-}
-
 fn of<O: Oscillator<D>, const D: usize>(
     oscillator: O,
     component: usize,
     step: f64,
     seed: u64,
 ) -> Result<Option<f64>, DynamicsError> {
-    let mut state = initial_states::<O, D>(1, seed)[0];
-    let (mut n_steps, mut done) = (STRETCH[0], 0);
+    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
+    let mut n_steps = STRETCH[0];
     loop {
         let mut stretch = Vec::with_capacity(n_steps);
         for number in 0..n_steps + n_steps / 2 {
-            state = rk4::step(&Isolated(oscillator), state, step);
-            done += 1;
-            if !state.iter().all(|x| x.abs() <= ESCAPE_RADIUS) {
-                return Err(DynamicsError::Escaped { time: f64::from(done) * step });
-            }
+            orbit.advance();
+            let state = orbit.bounded()?;
             if number >= n_steps / 2 {
                 stretch.push(state[component]);
             }

@@ -6,7 +6,8 @@ use msf::{Isolated, MasterStability};
 use crate::plan::{Plan, Sweep};
 use crate::problem::plain;
 use crate::simulated::Simulated;
-use crate::table::{four_digits, two_digits};
+use crate::stability::with_error;
+use crate::table::two_digits;
 use crate::warning::Warnings;
 
 /// The least averages and transients, in slow times of the oscillator.
@@ -68,10 +69,9 @@ fn warn_of_rest(msf: &MasterStability, warnings: &mut Warnings) {
         "an oscillator by itself forgets where it started"
     };
     let message = format!(
-        "Lambda(0) = {} ± {} is not above zero within its error: {by_itself}, so that small errors are \
-         no sign of coupling",
-        four_digits(isolated.mean),
-        two_digits(isolated.standard_error)
+        "Lambda(0) = {} is not above zero within its error: {by_itself}, so that small errors are no \
+         sign of coupling",
+        with_error(isolated.mean, isolated.standard_error)
     );
     warnings.add("simulations", message);
 }

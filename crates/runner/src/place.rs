@@ -212,8 +212,7 @@ fn within(results: &Path, id: &str) -> std::io::Result<PathBuf> {
 fn refuse_mounted(place: &Path) -> Result<()> {
     use std::os::unix::fs::MetadataExt;
     let device = |path: &Path| fs::symlink_metadata(path).map(|found| found.dev());
-    let parent = place.parent().filter(|parent| !parent.as_os_str().is_empty());
-    match (device(place), device(parent.unwrap_or(Path::new(".")))) {
+    match (device(place), device(exchange::parent(place))) {
         (Ok(own), Ok(around)) if own != around => {
             let message = "is a file system of its own, which cannot be exchanged for new results";
             let hint = "write into it: `--results` names a folder that holds results";

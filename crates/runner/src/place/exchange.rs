@@ -92,6 +92,11 @@ pub fn flush(folder: &Path) -> Result<()> {
 }
 
 fn flush_parent(path: &Path) -> Result<()> {
+    flush(parent(path))
+}
+
+/// The folder that something is in, whose name may be all there is of its path.
+pub fn parent(path: &Path) -> &Path {
     let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    flush(parent.unwrap_or(Path::new(".")))
+    parent.unwrap_or(Path::new("."))
 }
