@@ -37,15 +37,15 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
 /// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
 pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
-    let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate().skip(n_zero);
-    let mut lost = modes.filter(|(_, (lambda, residual))| **residual > CERTAIN * lambda.abs());
-    let Some((mode, (lambda, residual))) = lost.next() else { return };
+    let modes = spectrum.eigenvalues.iter().enumerate().skip(n_zero);
+    let mut lost = modes.filter(|(mode, lambda)| spectrum.error(*mode) > CERTAIN * lambda.abs());
+    let Some((mode, lambda)) = lost.next() else { return };
     let message = format!(
         "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
          the strongest are lost in rounding",
         mode + 1,
         four_digits(*lambda),
-        two_digits(*residual),
+        two_digits(spectrum.error(mode)),
         lost.count()
     );
     warnings.add("eigenvalues", message);

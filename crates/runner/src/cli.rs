@@ -15,7 +15,9 @@ use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, list, predict, results, simulated, table};
+use crate::{
+    check, claims, compare, findings, list, predict, results, simulated, step_effect, table,
+};
 
 /// Predicted states of an experiment beside simulation that are shown; its summary has them all.
 const STATES_SHOWN: usize = 12;
@@ -200,6 +202,9 @@ fn run_files(
         tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
         judged.push((plan.id.clone(), claims));
         states.extend(state_rows(plan, &found));
+        if let Some(looked) = step_effect::looked_at(&found.step_effects) {
+            tell!("{}: {looked}", plan.id);
+        }
         written.push((plan.id.clone(), place));
         if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);

@@ -11,11 +11,14 @@
 //! Source: E. Hairer, S. P. Nørsett & G. Wanner, Solving Ordinary Differential Equations I (1993),
 //! Sec. II.4, on errors from two step sizes.
 
+use std::fmt;
+
 use dynamics::{Errors, Estimate, Method, Replica, Run, Schedule};
 use serde::{Deserialize, Serialize};
 
 use crate::plan::Sweep;
-use crate::simulated::{Simulated, completed};
+use crate::problem::plain;
+use crate::simulated::{Simulated, completed, observed};
 use crate::table::two_digits;
 use crate::warning::Warnings;
 
@@ -159,6 +162,35 @@ impl StepEffect {
     }
 }
 
+impl fmt::Display for StepEffect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "epsilon = {}", plain(self.epsilon))?;
+        let is_rounding = |error: [f64; 2]| error[0].max(error[1]) <= ROUNDING;
+        match (self.error, self.log_ratio, self.standard_error) {
+            (Some(error), ..) if is_rounding(error) => f.write_str(" (errors are rounding)"),
+            (Some(_), Some(ratio), Some(error)) => write!(
+                f,
+                " (errors {} times as large, {} to {})",
+                two_digits(libm::exp(ratio)),
+                two_digits(libm::exp(ratio - error)),
+                two_digits(libm::exp(ratio + error))
+            ),
+            _ => f.write_str(" (too few runs stayed bounded)"),
+        }
+    }
+}
+
+/// At which couplings it was looked, and that it was at no others; none without any.
+pub fn looked_at(effects: &[StepEffect]) -> Option<String> {
+    let step = effects.first()?.step;
+    let each: Vec<String> = effects.iter().map(StepEffect::to_string).collect();
+    Some(format!(
+        "half the step of {} was tried at {}; at no other epsilon",
+        plain(step),
+        each.join(" and ")
+    ))
+}
+
 /// The largest coupling at which no run escaped, and the largest of these at which nodes are not
 /// synchronised; the one in the middle where these are one.
 fn couplings(simulated: &Simulated) -> Vec<f64> {
@@ -187,13 +219,6 @@ fn shortened(schedule: Schedule, share: f64) -> Schedule {
     let shorter = transient.min(FOR_TRANSIENT * time);
     let least = dynamics::BLOCKS as f64 * schedule.sampling_interval();
     Schedule { transient: shorter, average: (time - shorter).max(least).min(average), ..schedule }
-}
-
-/// Everything that was observed of a run: pairs where they were, else what the figure shows.
-fn observed(errors: &Errors) -> impl Iterator<Item = &Estimate> {
-    let Errors { pairs, to_reference, within_clusters } = errors;
-    let others = to_reference.iter().chain(within_clusters);
-    pairs.iter().chain(others.take(if pairs.is_empty() { usize::MAX } else { 0 }))
 }
 
 fn largest(errors: &Errors) -> f64 {

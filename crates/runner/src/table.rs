@@ -34,6 +34,9 @@ fn table(claims: &[Claim]) -> String {
         if let Some(uncertainty) = claim.uncertainty {
             obtained.push_str(&format!(" ± {}", two_digits(uncertainty)));
         }
+        if let Some(runs) = claim.runs {
+            obtained.push_str(&format!(", {runs}"));
+        }
         if claim.refined == Some(false) {
             obtained.push_str(", not as good as asked");
         }
@@ -119,7 +122,12 @@ fn end(end: &End) -> String {
         }
         Known::AtMost => format!("at most {}", limit()),
         Known::AtLeast => format!("at least {}", limit()),
-        Known::Unseen => "not seen".into(),
+        Known::Groups => end.groups.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+        Known::Unseen => match end.of_seeds.iter().flatten().count() {
+            0 => "not seen".into(),
+            seen => format!("not seen in every seed, measured in {seen} of {}", end.of_seeds.len()),
+        },
+        Known::Escaped => "escaped".into(),
         Known::NotSwept => "not swept".into(),
     };
     match end.n_escaped {
@@ -182,8 +190,7 @@ fn joined(list: &[Value], separator: &str) -> String {
 
 /// A number with four significant digits, counts whole.
 pub fn four_digits(number: f64) -> String {
-    // A zero eigenvalue is computed as 1e-16 or so.
-    if number.abs() < 1e-12 {
+    if number == 0.0 {
         return "0".into();
     }
     if number.abs() < 1e-4 {

@@ -68,3 +68,18 @@ pub struct Spectrum {
     /// How it was made sure that none is missing.
     pub verification: Verification,
 }
+
+impl Spectrum {
+    /// How far eigenvalue λ_k, counted from 0, may be off. An eigenvalue lies within the residual of it.
+    /// Those within [`Self::tolerance`] of 0 are Rayleigh quotients found by differences, and off by
+    /// r²/gap only, r the residual and gap the distance to all others (Parlett, The Symmetric Eigenvalue
+    /// Problem (1980), Sec. 11.7).
+    pub fn error(&self, k: usize) -> f64 {
+        let (lambda, residual) = (self.eigenvalues[k], self.residuals[k]);
+        let is_slow = |lambda: &f64| lambda.abs() <= self.tolerance;
+        match self.eigenvalues.iter().find(|lambda| !is_slow(lambda)) {
+            Some(next) if is_slow(&lambda) => residual.min(residual * residual / next.abs()),
+            _ => residual,
+        }
+    }
+}

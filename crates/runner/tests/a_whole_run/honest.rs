@@ -139,7 +139,7 @@ fn nodes_at_rest_or_without_coupling_are_not_called_synchronised() {
         .without_table("oscillator.rossler")
         .and("[oscillator.rossler]\na = -0.1\nb = 0.2\nc = 5.0");
     let (place, answer) = run(&experiment, SIX_NODES, 0);
-    check_warned(&place, &answer, "simulations", "is not above zero within its error");
+    check_warned(&place, &answer, "simulations", "comes to rest in the same");
     check_warned(&place, &answer, "simulations", "15 of 15 pairs have errors below");
     let summary = summary(&place);
     assert_eq!(summary["simulations"][0]["clusters"], json!([]));
