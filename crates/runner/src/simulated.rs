@@ -277,7 +277,7 @@ pub fn observed(errors: &Errors) -> impl Iterator<Item = &Estimate> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use dynamics::Replica;
 
     use super::*;

@@ -132,6 +132,7 @@ fn end(end: &End) -> String {
     };
     match end.n_escaped {
         0 => text,
+        _ if end.bound == Known::Escaped => text,
         escaped => format!("{text}, where {escaped} of {} escaped", end.of_seeds.len()),
     }
 }

@@ -187,6 +187,38 @@ fn what_the_step_does_to_errors_is_estimated_at_two_couplings() {
     assert!(!answer.stderr.contains("changes what is simulated"), "{}", answer.stderr);
 }
 
+/// Ten neurons in a row, y into x: bounded at steps of 0.05 and 0.025, and lost by one of 0.1.
+#[test]
+fn runs_that_escape_by_the_step_alone_are_told() {
+    let experiment = tiny()
+        .without_table("oscillator.lorenz")
+        .and("[oscillator.hindmarsh_rose]")
+        .set("coupling.from", "\"y\"")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 2.0, points = 5 }")
+        .set("msf.average", "400")
+        .set("msf.relative_error", "0.5")
+        .set("sweep.epsilon", "[0.5, 1.0]")
+        .set("sweep.step", "0.1")
+        .set("sweep.transient", "300")
+        .set("sweep.average", "300")
+        .without("sweep.error_to")
+        .without("sweep.clusters")
+        .without_table("claims.integers");
+    let path: String = (1..10).map(|k| format!("{k} {}\n", k + 1)).collect();
+    let (place, answer) = run(&experiment, &path, 0);
+    check_warned(
+        &place,
+        &answer,
+        "simulations_step_effect",
+        "at epsilon = 1 the step of 0.1 changes what is simulated: 6 of 6 runs escaped, but 0 at half",
+    );
+    assert_eq!(summary(&place)["simulations"][1]["outcome"], "escaped");
+    let looked = "half the step of 0.1 was tried at epsilon = 0.5 (errors ";
+    assert!(answer.stderr.contains(looked), "{}", answer.stderr);
+    assert!(answer.stderr.contains("; at no other epsilon"), "{}", answer.stderr);
+}
+
 #[test]
 fn claims_about_nothing_are_refused() {
     let refused = |claim: &str, words: &str| {
