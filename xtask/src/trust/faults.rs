@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::program::Running;
 use super::scene::{ID, Scene};
-use super::{Trial, copy};
+use super::{Trial, copy, remove};
 
 /// A sweep of a fraction of a second.
 const LENGTH: f64 = 100.0;
@@ -71,7 +71,8 @@ pub fn full_disk(trial: &mut Trial) -> Result<(), String> {
             trial.skip("a small file system cannot be mounted (only root may)");
             return Ok(());
         }
-        let filled = copy(&aside, &results).map_err(|error| error.to_string());
+        let filled = copy(&aside, &results).and_then(|()| remove(&aside));
+        let filled = filled.map_err(|error| error.to_string());
         let outcome = filled.and_then(|()| on_full_disk(trial, &scene, &folder));
         trial.count(outcome, &[&folder.join("sweep.toml")]);
         let _ = Command::new("umount").arg(&results).status();

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 /// Most address space that a command may take, in kB.
 const MEMORY_KB: u64 = 2 << 20;
+/// A run that is asked to stop does so within this time.
+pub const STOPS: Duration = Duration::from_secs(1);
 /// How often a running command is looked at.
 const LOOK: Duration = Duration::from_millis(2);
 /// Exit status of a Rust program that panicked.
