@@ -34,7 +34,7 @@ pub fn critical_couplings(
     transverse
         .flat_map(|(k, &lambda)| {
             stable.zeros().map(move |zero| {
-                let Zero { sigma, standard_error, falling, refined } = zero;
+                let Zero { sigma, standard_error, falling, refined, .. } = zero;
                 let per_sigma = if lambda < -tolerance { 1.0 / -lambda } else { f64::INFINITY };
                 CriticalCoupling {
                     mode: k + 1,

@@ -4,11 +4,14 @@ use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
 use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
 
 use crate::attractors::{self, Attractor, Column};
+use crate::step::{Step, is_certain, with_shift};
 use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
 use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
 const ISOLATED_ORBITS: usize = 16;
+/// So many of them are run at half the step as well.
+const HALVED_ORBITS: usize = 8;
 
 /// An oscillator with the function through which it is coupled.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -69,8 +72,11 @@ pub struct MasterStability {
     pub sigma: Vec<f64>,
     /// Λ at each σ, per unit of model time.
     pub lambda: Vec<Estimate>,
-    /// Λ(0): the largest Lyapunov exponent of the isolated oscillator.
+    /// Λ(0): the largest Lyapunov exponent of the isolated oscillator. What half the step changes is
+    /// in its standard error where that is more than chance.
     pub isolated: Estimate,
+    /// By how much half the step of the integrator changes Λ(0), with the standard error of that.
+    pub isolated_step_shift: Estimate,
     /// What Λ(0) says.
     pub state: Isolated,
     /// How many isolated oscillators, of those tried, end in each of the states in which they come to
@@ -81,6 +87,13 @@ pub struct MasterStability {
     /// Each of them, the one of most orbits first, where orbits settle on several attractors; the
     /// curve and Λ(0) are then those of the first.
     pub attractors: Vec<Attractor>,
+}
+
+impl MasterStability {
+    /// What half the step changes of Λ(0), where that is more than chance.
+    pub fn certain_isolated_step_shift(&self) -> Option<Estimate> {
+        is_certain(self.isolated_step_shift).then_some(self.isolated_step_shift)
+    }
 }
 
 /// Computes Λ on the grid, the isolated exponent, and every zero to the accuracy asked for, or as
@@ -124,10 +137,13 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    fn exponents(&self, tangents: &[Tangent]) -> Result<Vec<Estimate>, MsfError> {
-        let (node, times, set) = (self.node, &self.request.times, self.request.instruction_set);
+    fn exponents(&self, tangents: &[Tangent], step: Step) -> Result<Vec<Estimate>, MsfError> {
+        let (node, mut times, set) = (self.node, self.request.times, self.request.instruction_set);
+        if step == Step::Halved {
+            times.step *= 0.5;
+        }
         let (model, coupling) = (node.model, node.coupling);
-        Ok(master_exponents_with(set, model, coupling, times, tangents, self.progress)?)
+        Ok(master_exponents_with(set, model, coupling, &times, tangents, self.progress)?)
     }
 
     /// What an average over this time does not know of an exponent in any case: the length of a
@@ -149,24 +165,30 @@ impl Work<'_> {
     /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.
     fn curve(&self, seeds: &mut Seeds) -> Result<(MasterStability, Option<f64>), MsfError> {
         let (sigma, floor) = (self.request.looked_at(), self.floor());
-        let isolated = seeds.orbits().map(|seed| Tangent { sigma: 0.0, seed }).collect::<Vec<_>>();
-        let isolated = self.exponents(&isolated)?;
+        let orbits = seeds.orbits().map(|seed| Tangent { sigma: 0.0, seed }).collect::<Vec<_>>();
+        let isolated = self.exponents(&orbits, Step::Asked)?;
         let split = attractors::split(&[Column { sigma: 0.0, exponents: &isolated }], floor);
         let isolated = estimate_of(&isolated);
+        let halved = &orbits[..orbits.len().min(HALVED_ORBITS)];
+        let isolated_step_shift = difference(&self.exponents(halved, Step::Halved)?, isolated);
+        let isolated = Estimate {
+            standard_error: with_shift(isolated.standard_error, isolated_step_shift),
+            ..isolated
+        };
         // One orbit serves the whole grid. Zeros are found from orbits of their own, since their
         // standard errors come from the scatter of independent exponents.
         let seed = seeds.next();
         let grid: Vec<_> = sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
-        let lambda = self.exponents(&grid)?;
+        let lambda = self.exponents(&grid, Step::Asked)?;
         let state = match sign(isolated, floor) {
             Some(true) => Isolated::AtRest,
             Some(false) => Isolated::Chaotic,
             None => Isolated::Periodic,
         };
-        let measure = |sigmas: &[f64]| {
+        let measure = |sigmas: &[f64], step| {
             let tangents: Vec<_> =
                 sigmas.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
-            self.exponents(&tangents)
+            self.exponents(&tangents, step)
         };
         let mut finder = Finder { refinement: &self.request.refinement, floor, measure, split };
         let positive: Vec<(f64, Estimate)> =
@@ -176,7 +198,16 @@ impl Work<'_> {
         let found = finder.zeros(&certain)?;
         let stable = region(&certain, &found.zeros, from);
         let (rests, attractors) = (Vec::new(), Vec::new());
-        let curve = MasterStability { sigma, lambda, isolated, state, rests, stable, attractors };
+        let curve = MasterStability {
+            sigma,
+            lambda,
+            isolated,
+            isolated_step_shift,
+            state,
+            rests,
+            stable,
+            attractors,
+        };
         Ok((curve, found.split))
     }
 
@@ -189,7 +220,7 @@ impl Work<'_> {
     ) -> Result<MasterStability, MsfError> {
         let seeds: Vec<u64> = seeds.orbits().collect();
         let probes: Vec<_> = seeds.iter().map(|&seed| Tangent { sigma, seed }).collect();
-        let exponents = self.exponents(&probes)?;
+        let exponents = self.exponents(&probes, Step::Asked)?;
         let groups = attractors::groups(&exponents, self.floor());
         // Orbits that are all alike now were not for good, or a rare attractor does not come again.
         if groups.len() < 2 {
@@ -217,6 +248,15 @@ impl Work<'_> {
             .skip(1)
             .fold(attractors[0].stable.clone(), |all, next| all.intersection(&next.stable));
         Ok(MasterStability { stable, attractors, ..curves.swap_remove(0) })
+    }
+}
+
+/// What half the step changes.
+fn difference(halved: &[Estimate], asked: Estimate) -> Estimate {
+    let halved = estimate_of(halved);
+    Estimate {
+        mean: halved.mean - asked.mean,
+        standard_error: halved.standard_error.hypot(asked.standard_error),
     }
 }
 

@@ -57,8 +57,14 @@ impl Line {
                 standard_error: variance.sqrt() / self.slope.abs(),
                 falling,
                 refined: false,
+                step_shift: None,
             }
         })
+    }
+
+    /// Its slope.
+    pub fn slope(&self) -> f64 {
+        self.slope
     }
 
     /// By how much a curvature, y = … + q (x − centre)², moves the zero of this line.

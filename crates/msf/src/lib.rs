@@ -15,6 +15,7 @@ mod origin;
 mod reach;
 mod rest;
 mod stable_region;
+mod step;
 mod zeros;
 
 pub use attractors::Attractor;

@@ -7,6 +7,7 @@
 
 use dynamics::Estimate;
 
+use crate::step::Step;
 use crate::zeros::{Finder, Signed, sign};
 use crate::{End, Isolated, MsfError};
 
@@ -19,7 +20,7 @@ const CONSTANT: f64 = 0.1;
 
 /// The certain signs with those at and near σ = 0, and what the lower end of a stable interval is that
 /// begins there.
-pub(crate) fn with<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>>(
+pub(crate) fn with<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>>(
     state: Isolated,
     mut certain: Vec<Signed>,
     finder: &mut Finder<'_, M>,
@@ -50,12 +51,12 @@ pub(crate) fn with<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>>(
 }
 
 /// Certain signs below the first, ascending, and whether Λ is proportional to σ at the lowest two.
-fn nearer<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>>(
+fn nearer<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>>(
     first: Signed,
     finder: &mut Finder<'_, M>,
 ) -> Result<(Vec<Signed>, bool), MsfError> {
     let sigmas: Vec<f64> = (0..=HALVINGS).map(|k| first.sigma * 0.5f64.powi(k)).collect();
-    let measured = (finder.measure)(&sigmas)?;
+    let measured = (finder.measure)(&sigmas, Step::Asked)?;
     let slopes: Vec<(Signed, Estimate)> = sigmas
         .iter()
         .zip(measured)
@@ -85,7 +86,7 @@ mod tests {
     fn of(state: Isolated, truth: fn(f64) -> f64) -> (f64, Option<End>) {
         let refinement = Refinement::default();
         let exponent = |&sigma: &f64| Estimate { mean: truth(sigma), standard_error: 1e-5 };
-        let measure = |sigmas: &[f64]| Ok(sigmas.iter().map(exponent).collect());
+        let measure = |sigmas: &[f64], _| Ok(sigmas.iter().map(exponent).collect());
         let mut finder = Finder { refinement: &refinement, floor: 1e-5, measure, split: None };
         let first = Signed { sigma: 1.0, negative: truth(1.0) < 0.0 };
         let (certain, end) = with(state, vec![first], &mut finder).unwrap();

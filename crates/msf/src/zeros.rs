@@ -7,12 +7,16 @@ use dynamics::Estimate;
 use crate::MsfError;
 use crate::attractors::{self, Column};
 use crate::fit::{Line, Sample, curvature};
+use crate::step::{Step, is_certain, with_shift};
 
 /// Exponents measured in each round.
 pub(crate) const PER_ROUND: usize = 32;
 /// A round that looks for signs has as many σ, and as many orbits at each.
 const COLUMNS: usize = 8;
 const ORBITS: usize = PER_ROUND / COLUMNS;
+
+/// Exponents measured at half the step where a zero was found, each at twice the cost.
+const HALVED: usize = 16;
 
 /// A sign is certain when Λ is this many standard errors away from zero.
 const CERTAIN: f64 = 4.0;
@@ -26,25 +30,34 @@ const WINDOW: f64 = 8.0;
 pub struct Zero {
     /// Where Λ(σ) = 0.
     pub sigma: f64,
-    /// Standard error of it, from the scatter of independent orbits about a line and what bending of
-    /// Λ may add; half the width of the bracket where no line could be drawn.
+    /// Standard error of it, from the scatter of independent orbits about a line, what bending of Λ may
+    /// add, and what half the step changes where that is more than chance; half the width of the
+    /// bracket where no line could be drawn.
     pub standard_error: f64,
     /// Whether Λ falls through zero, so that larger σ is stable.
     pub falling: bool,
     /// Whether it is known as well as was asked for: [`Refinement::relative_error`].
     pub refined: bool,
+    /// By how much half the step of the integrator moves it, with the standard error of that; none
+    /// where no line could be drawn.
+    pub step_shift: Option<Estimate>,
 }
 
 impl Zero {
     /// A zero that is known exactly, as in closed forms.
     pub fn exact(sigma: f64, falling: bool) -> Self {
-        Self { sigma, standard_error: 0.0, falling, refined: true }
+        Self { sigma, standard_error: 0.0, falling, refined: true, step_shift: None }
     }
 
     /// Interval that holds the zero with a probability of 95 %.
     pub fn confidence_interval(&self) -> [f64; 2] {
         let half_width = 1.96 * self.standard_error;
         [self.sigma - half_width, self.sigma + half_width]
+    }
+
+    /// What half the step changes, where that is more than chance.
+    pub fn certain_step_shift(&self) -> Option<Estimate> {
+        self.step_shift.filter(|&shift| is_certain(shift))
     }
 }
 
@@ -85,8 +98,8 @@ pub(crate) struct Found {
     pub split: Option<f64>,
 }
 
-/// Finds zeros with exponents that `measure` gives at each of the σ it is asked for, from orbits that
-/// are new every time.
+/// Finds zeros with exponents that `measure` gives at each of the σ it is asked for, at the step asked
+/// for or at half of it, from orbits that are new every time.
 pub(crate) struct Finder<'a, M> {
     pub refinement: &'a Refinement,
     pub floor: f64,
@@ -95,7 +108,7 @@ pub(crate) struct Finder<'a, M> {
     pub split: Option<f64>,
 }
 
-impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
+impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
     /// Of each grid point, with the exponent there, whether Λ < 0; none where that stays in doubt.
     ///
     /// Doubtful points between certain ones of opposite sign need no more time: the zero between
@@ -109,7 +122,7 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             let after = signs.get(end).copied().flatten();
             if before.is_none() || after.is_none() || before == after {
                 for index in first..end {
-                    let again = (self.measure)(&[grid[index].0; PER_ROUND])?;
+                    let again = (self.measure)(&[grid[index].0; PER_ROUND], Step::Asked)?;
                     signs[index] = sign(mean_of(&again), self.floor);
                 }
             }
@@ -173,7 +186,7 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
         let step = (to.sigma - from.sigma) / (COLUMNS + 1) as f64;
         let sigma = |column: usize| from.sigma + step * (column + 1) as f64;
         let sigmas: Vec<f64> = (0..PER_ROUND).map(|k| sigma(k / ORBITS)).collect();
-        let measured = (self.measure)(&sigmas)?;
+        let measured = (self.measure)(&sigmas, Step::Asked)?;
         samples.extend(sigmas.iter().zip(&measured).map(|(&sigma, lambda)| (sigma, lambda.mean)));
         let exponents = measured.chunks(ORBITS).enumerate();
         let columns: Vec<Column<'_>> =
@@ -203,7 +216,9 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
         let falling = to.negative;
         let whole = 0.5 * (to.sigma - from.sigma);
         let middle = 0.5 * (from.sigma + to.sigma);
-        let mut best = Zero { sigma: middle, standard_error: whole, falling, refined: false };
+        let (sigma, standard_error) = (middle, whole);
+        let mut best = Zero { sigma, standard_error, falling, refined: false, step_shift: None };
+        let mut slope = None;
         let mut window = whole;
         for _ in rounds..self.refinement.max_rounds.max(rounds + 4) {
             let low = (best.sigma - window).max(from.sigma);
@@ -211,7 +226,7 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             let sigmas: Vec<f64> = (0..PER_ROUND)
                 .map(|k| low + (high - low) * (k as f64 + 0.5) / PER_ROUND as f64)
                 .collect();
-            let measured = (self.measure)(&sigmas)?;
+            let measured = (self.measure)(&sigmas, Step::Asked)?;
             samples.extend(sigmas.into_iter().zip(measured.iter().map(|lambda| lambda.mean)));
             let within = |half: f64| {
                 let near = samples.iter().filter(|s| (s.0 - best.sigma).abs() <= half);
@@ -228,6 +243,7 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             let bend = curvature(&within(4.0 * window)).map_or(0.0, |q| line.bend(q));
             let noise = zero.standard_error;
             best = Zero { standard_error: noise.hypot(bend), ..zero };
+            slope = Some(line.slope());
             let target = self.refinement.relative_error * best.sigma;
             let narrow = WINDOW * target.max(noise);
             best.refined = best.standard_error <= target && window <= narrow;
@@ -238,7 +254,22 @@ impl<M: FnMut(&[f64]) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             let least = if bend > 0.5 * target { 0.5 * WINDOW * noise } else { narrow };
             window = window.min((0.25 * window).max(least));
         }
-        Ok(best)
+        match slope {
+            Some(slope) => self.with_step(best, slope),
+            None => Ok(best),
+        }
+    }
+
+    /// A zero with what half the step changes, from Λ there and its slope.
+    fn with_step(&mut self, zero: Zero, slope: f64) -> Result<Zero, MsfError> {
+        let halved = mean_of(&(self.measure)(&[zero.sigma; HALVED], Step::Halved)?);
+        let mean = -halved.mean / slope;
+        let standard_error = (halved.standard_error / slope).hypot(zero.standard_error);
+        let shift = Estimate { mean, standard_error };
+        let standard_error = with_shift(zero.standard_error, shift);
+        let is_good = standard_error <= self.refinement.relative_error * zero.sigma;
+        let (refined, step_shift) = (zero.refined && is_good, Some(shift));
+        Ok(Zero { standard_error, refined, step_shift, ..zero })
     }
 }
 
@@ -287,7 +318,7 @@ mod tests {
             let refinement = Refinement::default();
             let grid = self.exponents(&sigma);
             let grid: Vec<_> = sigma.into_iter().zip(grid).collect();
-            let measure = |sigmas: &[f64]| Ok(self.exponents(sigmas));
+            let measure = |sigmas: &[f64], _| Ok(self.exponents(sigmas));
             let mut finder = Finder { refinement: &refinement, floor: 0.0, measure, split: None };
             let signs = finder.settle(&grid).unwrap();
             let found = finder.zeros(&signs).unwrap();

@@ -287,7 +287,7 @@ impl Walk<'_> {
             // What the ends of the stable set are; their numbers are judged under `stable`.
             _ if kind.starts_with("msf.stable_ends") || kind.ends_with(".refined") => Rule::Note,
             _ if kind.starts_with("msf.attractors") || kind == "msf.isolated_state" => Rule::Note,
-            _ if kind.starts_with("msf.rests") => Rule::Note,
+            _ if kind.starts_with("msf.rests") || kind.contains("step_shift") => Rule::Note,
             _ if kind.starts_with("msf.looked") || kind.starts_with("global_synchrony") => {
                 Rule::Note
             }

@@ -98,9 +98,10 @@ impl Sweep {
 }
 
 impl Plan {
-    /// Steps of all tangent vectors of the MSF, refinement of one zero included.
+    /// Steps of all tangent vectors of the MSF, refinement of one zero included, with what is run at
+    /// half the step.
     pub fn msf_steps(&self) -> u64 {
-        (self.msf.looked_at().len() as u64 + 16 + 64) * self.msf.times.steps()
+        (self.msf.looked_at().len() as u64 + 16 + 64 + 2 * (8 + 16)) * self.msf.times.steps()
     }
 }
 

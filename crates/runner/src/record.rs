@@ -5,7 +5,7 @@ mod states;
 
 use std::time::Duration;
 
-use dynamics::{Outcome, Run};
+use dynamics::{Estimate, Outcome, Run};
 use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
@@ -117,6 +117,7 @@ pub struct VerifiedRecord {
 pub struct MsfRecord {
     pub lyapunov_isolated: f64,
     pub lyapunov_isolated_standard_error: f64,
+    pub lyapunov_isolated_step_shift: ShiftRecord,
     /// What that says: `chaotic`, `periodic` or `at rest`.
     pub isolated_state: &'static str,
     /// How many isolated oscillators ended in each of the states in which they come to rest; only
@@ -137,6 +138,19 @@ pub struct MsfRecord {
     /// Each attractor, where orbits settle on several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub attractors: Vec<AttractorRecord>,
+}
+
+/// By how much half of `msf.step` changes a number.
+#[derive(Serialize)]
+pub struct ShiftRecord {
+    pub mean: f64,
+    pub standard_error: f64,
+}
+
+impl From<Estimate> for ShiftRecord {
+    fn from(Estimate { mean, standard_error }: Estimate) -> Self {
+        Self { mean, standard_error }
+    }
 }
 
 /// An attractor of several.
@@ -190,6 +204,8 @@ pub struct ZeroRecord {
     pub falling: bool,
     /// Whether it is known as well as was asked for.
     pub refined: bool,
+    /// None where no line could be drawn through exponents near it.
+    pub step_shift: Option<ShiftRecord>,
 }
 
 #[derive(Serialize)]
@@ -341,6 +357,7 @@ fn msf_record(findings: &Findings) -> MsfRecord {
     MsfRecord {
         lyapunov_isolated: msf.isolated.mean,
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
+        lyapunov_isolated_step_shift: msf.isolated_step_shift.into(),
         isolated_state: word(msf.state),
         rests: msf.rests.clone(),
         looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
@@ -369,8 +386,9 @@ fn attractor_record(attractor: &Attractor) -> AttractorRecord {
     }
 }
 
-fn zero_record(Zero { sigma, standard_error, falling, refined }: Zero) -> ZeroRecord {
-    ZeroRecord { sigma, standard_error, falling, refined }
+fn zero_record(zero: Zero) -> ZeroRecord {
+    let Zero { sigma, standard_error, falling, refined, step_shift } = zero;
+    ZeroRecord { sigma, standard_error, falling, refined, step_shift: step_shift.map(Into::into) }
 }
 
 fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {

@@ -1,11 +1,16 @@
 //! What must be known beside the master stability function: zeros that could not be refined, ends of
 //! the look, attractors of several kinds, and what an isolated oscillator does.
 
+use dynamics::Estimate;
 use msf::{Attractor, End, Isolated, Zero};
 
 use crate::plan::Plan;
+use crate::problem::plain;
 use crate::table::{four_digits, two_digits};
 use crate::warning::Warnings;
+
+/// What half the step changes is said of Λ(0) from this share of it on; below, it is in its error.
+const STEP_MATTERS: f64 = 0.02;
 
 /// What the isolated oscillator does, in a word.
 pub fn word(state: Isolated) -> &'static str {
@@ -25,6 +30,11 @@ pub fn with_error(value: f64, error: f64) -> String {
 pub fn warn(plan: &Plan, msf: &msf::MasterStability, warnings: &mut Warnings) {
     for zero in msf.stable.zeros().filter(|zero| !zero.refined) {
         warnings.add("msf.zeros", unrefined(plan, zero));
+    }
+    if let Some(shift) =
+        msf.certain_isolated_step_shift().filter(|shift| is_large(*shift, msf.isolated))
+    {
+        warnings.add("msf.lyapunov_isolated", shifted_isolated(plan, shift));
     }
     for interval in &msf.stable.intervals {
         if let End::Looked { sigma } = interval.from {
@@ -69,12 +79,33 @@ fn at_rest(msf: &msf::MasterStability) -> String {
 }
 
 fn unrefined(plan: &Plan, zero: Zero) -> String {
+    let asked = plan.msf.refinement.relative_error;
+    let by_step = zero.certain_step_shift();
+    let why = match by_step.filter(|shift| shift.mean.abs() > asked * zero.sigma) {
+        Some(shift) => format!(
+            "half of `msf.step` = {} moves it by {}. A shorter step would help",
+            plain(plan.msf.times.step),
+            with_error(shift.mean, shift.standard_error)
+        ),
+        None => "a longer `msf.average` or a finer grid near it would help".to_owned(),
+    };
     format!(
-        "the zero of Λ at sigma = {} is not as good as `msf.relative_error` = {} asks for: neither is \
-         any critical coupling, range of ε or claim that follows from it. A longer `msf.average` or a \
-         finer grid near it would help",
+        "the zero of Λ at sigma = {} is not as good as `msf.relative_error` = {asked} asks for, and \
+         neither is any critical coupling, range of ε or claim that follows from it: {why}",
         with_error(zero.sigma, zero.standard_error),
-        plan.msf.refinement.relative_error
+    )
+}
+
+/// Whether a change by the step matters beside the number.
+fn is_large(shift: Estimate, number: Estimate) -> bool {
+    shift.mean.abs() > STEP_MATTERS * number.mean.abs()
+}
+
+fn shifted_isolated(plan: &Plan, shift: Estimate) -> String {
+    format!(
+        "half of `msf.step` = {} changes Λ(0) by {}, and the curve Λ(sigma) likewise: take a shorter step",
+        plain(plan.msf.times.step),
+        with_error(shift.mean, shift.standard_error)
     )
 }
 

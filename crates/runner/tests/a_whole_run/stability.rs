@@ -53,6 +53,33 @@ fn a_zero_that_is_not_as_good_as_asked_is_said_beside_every_number_that_follows(
 }
 
 #[test]
+fn a_zero_that_the_step_moves_is_said_to_be_no_better_than_that() {
+    // Rössler x into x has its lower zero at 0.187, and at 0.169 by steps of 0.1.
+    let experiment = prediction()
+        .without_table("oscillator.lorenz")
+        .and("[oscillator.rossler]")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 1.0, points = 6 }")
+        .set("msf.relative_error", "1e-2")
+        .set("msf.step", "0.1")
+        .set("msf.renormalise", "1.0")
+        .set("msf.transient", "200")
+        .set("msf.average", "8e3");
+    let (summary, answer) = summary(&experiment, "1 2\n");
+    let zero = &summary["msf"]["zeros"][0];
+    let of = |key: &str| zero.pointer(key).unwrap().as_f64().unwrap();
+    let off = (of("/sigma") - 0.187).abs();
+    assert!(off > 0.01 && off < 3.0 * of("/standard_error"), "{zero}");
+    assert_eq!(zero["refined"], false);
+    let shift = [of("/step_shift/mean"), of("/step_shift/standard_error")];
+    assert!(shift[0] > 0.008 && shift[0] > 3.0 * shift[1], "{zero}");
+    let said = warned(&summary, "msf.zeros");
+    assert!(said.contains("half of `msf.step` = 0.1 moves it by 0.01"), "{said}");
+    assert!(warned(&summary, "msf.lyapunov_isolated").contains("shorter step"));
+    assert!(answer.stderr.contains("A shorter step would help"), "{}", answer.stderr);
+}
+
+#[test]
 fn oscillators_at_rest_synchronise_in_pieces_and_without_coupling() {
     let experiment = prediction()
         .without_table("oscillator.lorenz")
