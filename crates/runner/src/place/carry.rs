@@ -10,7 +10,7 @@ use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
-use rustix::fs::Access;
+use rustix::fs::{Access, access};
 
 use super::exchange::{self, flush};
 use super::manifest::{Manifest, Owner};
@@ -28,26 +28,38 @@ enum By {
 /// Refuses what could not come along or could not be told from a user's: folders that we may not write
 /// to, files of ours that we may not read, and whatever is mounted here.
 pub fn check(folder: &Path) -> problem::Result<()> {
-    let refused = |place: &Path, what: &str, why: &str| {
-        let hint = "move it away, or write elsewhere: `--results FOLDER`";
-        Err(Problem::new(format!("{what}: {why}")).in_file(place).hint(hint))
-    };
     let manifest = Manifest::of(folder).ok();
     for name in names(folder).unwrap_or_default() {
-        let inner = folder.join(&name);
+        let file = folder.join(&name);
         let is_ours = manifest.as_ref().is_some_and(|manifest| manifest.lists(&name));
+        if is_ours
+            && !is_folder(&file)
+            && let Err(error) = access(&file, Access::READ_OK)
+        {
+            return Err(refused(&file, "cannot be told from an edited file", &error.to_string()));
+        }
+    }
+    check_movable(folder)
+}
+
+fn check_movable(folder: &Path) -> problem::Result<()> {
+    for name in names(folder).unwrap_or_default() {
+        let inner = folder.join(name);
         if exchange::is_mount(&inner) {
-            return refused(&inner, STAYS, "a file system is mounted there");
-        } else if is_folder(&inner) {
-            if let Err(error) = rustix::fs::access(&inner, ALL_ACCESS) {
-                return refused(&inner, STAYS, &error.to_string());
-            }
-            check(&inner)?;
-        } else if is_ours && let Err(error) = rustix::fs::access(&inner, Access::READ_OK) {
-            return refused(&inner, "cannot be told from an edited file", &error.to_string());
+            return Err(refused(&inner, STAYS, "a file system is mounted there"));
+        }
+        if is_folder(&inner) {
+            access(&inner, ALL_ACCESS)
+                .map_err(|error| refused(&inner, STAYS, &error.to_string()))?;
+            check_movable(&inner)?;
         }
     }
     Ok(())
+}
+
+fn refused(place: &Path, what: &str, why: &str) -> Problem {
+    let hint = "move it away, or write elsewhere: `--results FOLDER`";
+    Problem::new(format!("{what}: {why}")).in_file(place).hint(hint)
 }
 
 const STAYS: &str = "could not come along when the results around it are replaced";

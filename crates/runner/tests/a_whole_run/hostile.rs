@@ -77,8 +77,12 @@ fn a_file_of_ours_that_may_not_be_read_is_refused_before_the_run() {
     // A file of the user's own is not read, and comes along.
     fs::set_permissions(&sweep, Permissions::from_mode(0o644)).unwrap();
     fs::rename(&sweep, place.path("results/tiny/mine.csv")).unwrap();
-    fs::set_permissions(place.path("results/tiny/mine.csv"), Permissions::from_mode(0o000))
-        .unwrap();
+    place.write("results/tiny/drafts/sweep.csv", "years of work");
+    Command::new("chown").args(["-R", "65534"]).arg(place.path("results")).status().unwrap();
+    for mine in ["mine.csv", "drafts/sweep.csv"] {
+        let path = place.path("results/tiny").join(mine);
+        fs::set_permissions(path, Permissions::from_mode(0o000)).unwrap();
+    }
     let (status, said) = run_as_a_user(&place).unwrap();
     assert_eq!(status, Some(0), "{said}");
     assert!(place.path("results/tiny/mine.csv").exists() && !said.contains("kept"), "{said}");
