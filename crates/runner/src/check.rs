@@ -7,6 +7,7 @@ use dynamics::{Adaptive, AdaptiveOrder, Method};
 use spectra::Spectrum;
 
 use crate::drawing;
+use crate::output::one_line;
 use crate::plan::{Memory, Plan, Sweep};
 use crate::spec::{FigureKind, MatrixKind};
 use crate::table::{four_digits, two_digits};
@@ -55,7 +56,7 @@ pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
 pub fn describe(plan: &Plan) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
-        writeln!(text, "{name:<12} {value}").expect("a string takes every line");
+        writeln!(text, "{name:<12} {}", one_line(&value)).expect("a string takes every line");
     };
     let (network, experiment) = (&plan.network, &plan.experiment);
     line("experiment", format!("{}: {}", plan.id, experiment.title));

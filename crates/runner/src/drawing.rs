@@ -28,7 +28,7 @@ const DRAWN_NODES: usize = 1000;
 
 /// The figure of the kind that the experiment asks for.
 fn figure(plan: &Plan, findings: &Findings) -> Figure {
-    match (plan.figure().kind, &findings.simulated) {
+    match (plan.figure_kind(), &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
         (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
         _ => sweep(plan, findings),

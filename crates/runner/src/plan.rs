@@ -28,12 +28,13 @@ pub use node::Node;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
+use crate::output::shown;
 use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
-    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
+    Bound, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
 use crate::warning::Warning;
 
@@ -41,7 +42,7 @@ use crate::warning::Warning;
 pub const QUICK: f64 = 10.0;
 
 /// Up to this many nodes all pairs are observed; beyond it only what the file asks for.
-const ALL_PAIRS: usize = 2000;
+pub const ALL_PAIRS: usize = 2000;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -123,7 +124,7 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> 
         if let Some(earlier) = plans[..position].iter().find(|plan| plan.id == later.id) {
             let message = format!(
                 "has the same name as {}, and both would write the results folder {}",
-                earlier.file.display(),
+                shown(&earlier.file),
                 later.id
             );
             return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
@@ -377,5 +378,15 @@ impl Checker<'_> {
 impl Plan {
     pub fn figure(&self) -> &FigureSpec {
         &self.experiment.figure
+    }
+
+    /// The kind of the figure that can be drawn: there are no matrices where not all pairs are
+    /// observed, and the sweep is shown instead.
+    pub fn figure_kind(&self) -> FigureKind {
+        let has_pairs = self.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+        match self.figure().kind {
+            FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
+            kind => kind,
+        }
     }
 }

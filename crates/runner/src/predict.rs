@@ -12,7 +12,7 @@ use toml::{Table, Value, toml};
 
 use crate::computed::{self, Curves};
 use crate::journal::Journal;
-use crate::output::say;
+use crate::output::{say, shown};
 use crate::place::{self, Place};
 use crate::plan::{self, Node, Plan};
 use crate::problem::{Problem, Result, nearest};
@@ -105,8 +105,8 @@ pub fn run(args: &Args) -> Result<()> {
         Ok((plan, found, place))
     })?;
     say!("{}", overview::of(&plan, &found).trim_end());
-    say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
-    say!("the same as an experiment file: {}", place.join(results::EXPERIMENT).display());
+    say!("\nresults in {}, in {:.1} s", shown(&place), started.elapsed().as_secs_f64());
+    say!("the same as an experiment file: {}", shown(place.join(results::EXPERIMENT)));
     Ok(())
 }
 

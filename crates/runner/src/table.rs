@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::agreement::Agreement;
 use crate::claims::Claim;
+use crate::output::one_line;
 use crate::simulated::{End, Known};
 
 /// Lists with more entries are abridged.
@@ -37,7 +38,7 @@ fn table(claims: &[Claim]) -> String {
         if claim.refined == Some(false) {
             obtained.push_str(", not as good as asked");
         }
-        let name = claim.name.replace('_', " ");
+        let name = one_line(&claim.name).replace('_', " ");
         table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }
     table.to_string()
@@ -158,7 +159,7 @@ pub fn times(of: &[Times]) -> String {
 pub fn readable(value: &Value) -> String {
     match value {
         Value::Null => "none".into(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => one_line(text).into_owned(),
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), four_digits),
         Value::Array(list) if list.iter().all(Value::is_array) && !list.is_empty() => {
             let inner = list.iter().filter_map(Value::as_array);

@@ -17,7 +17,6 @@ pub fn of(plan: &Plan) -> Value {
         }
     };
     set("/spectrum/modes", json!(plan.spectrum.wanted()));
-    set("/spectrum/modes", json!(plan.spectrum.wanted()));
     set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
     set("/msf/transient", json!(plan.msf.times.transient));
     set("/msf/average", json!(plan.msf.times.average));

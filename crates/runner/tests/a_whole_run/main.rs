@@ -6,6 +6,7 @@ mod comparison;
 mod faults;
 mod figures;
 mod honest;
+mod hostile;
 mod odd_networks;
 mod place;
 mod predict;

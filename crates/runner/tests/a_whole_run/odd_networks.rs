@@ -66,7 +66,12 @@ fn self_loops_and_weights_below_zero_are_refused_with_the_step_that_helps() {
 #[test]
 fn one_node_is_no_network_to_synchronise() {
     let (_, refused) = of("net.edges", "alone\n", &[], 2);
-    check_says(&refused.stderr, &["has one node", "two or more"]);
+    check_says(&refused.stderr, &["from net.edges has one node", "two or more"]);
+    // Also where the file is another one than the experiment.
+    let place = Workplace::new();
+    place.write("networks/six-node.edges", "alone\n");
+    let refused = place.answer(&["run", "tiny.toml"]).with_status(2).stderr;
+    check_says(&refused, &["tiny.toml: `network` from networks/six-node.edges has one node"]);
 }
 
 #[test]
