@@ -21,7 +21,7 @@ const NAMED: usize = 8;
 pub fn warn_of_short_times(plan: &Plan, warnings: &mut Warnings) {
     let component = plan.sweep.as_ref().map_or(0, |sweep| sweep.observables.component);
     let seed = plan.experiment.seed;
-    let slow = dynamics::slow_time(plan.node.model, component, plan.msf.times.step, seed);
+    let slow = dynamics::slow_time(&plan.node.model, component, plan.msf.times.step, seed);
     // An orbit at rest has no slow time, and the master stability function tells of one that escapes.
     let Ok(Some(slow)) = slow else { return };
     let mut times = vec![

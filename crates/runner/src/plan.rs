@@ -5,6 +5,7 @@ mod claims;
 mod effects;
 mod memory;
 mod network;
+mod node;
 mod numbers;
 mod ranges;
 mod source;
@@ -15,12 +16,15 @@ use std::path::{Path, PathBuf};
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
-use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Replica, Schedule};
+use dynamics::{
+    Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Replica, Schedule,
+};
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
 pub use memory::Memory;
 pub use network::nodes_named;
+pub use node::Node;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
@@ -63,7 +67,7 @@ pub struct Plan {
     pub preparation: Vec<Report>,
     pub matrix: CouplingMatrix,
     pub spectrum: SpectrumPlan,
-    pub node: msf::Node,
+    pub node: Node,
     pub msf: msf::Request,
     pub rule: ClusterRule,
     pub sweep: Option<Sweep>,
@@ -171,7 +175,7 @@ fn of(
         spectrum: checker.spectrum(network.n_nodes(), n_components)?,
         msf: checker.msf()?,
         rule: checker.rule(network.n_nodes())?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node)).transpose()?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node.model)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
         kept: None,
@@ -220,12 +224,12 @@ impl Checker<'_> {
         }
     }
 
-    fn node(&self) -> Result<msf::Node> {
+    fn node(&self) -> Result<Node> {
         let (model, spec) = (self.experiment.oscillator, &self.experiment.coupling);
         self.parameters(model)?;
         let from = self.component("coupling.from", &spec.from, model)?;
         let to = self.component("coupling.to", &spec.to, model)?;
-        Ok(msf::Node { model, coupling: Coupling { from, to } })
+        Ok(Node { model, coupling: Coupling::pair(from, to) })
     }
 
     fn parameters(&self, model: Model) -> Result<()> {
@@ -303,13 +307,13 @@ impl Checker<'_> {
         }
     }
 
-    fn sweep(&self, spec: &SweepSpec, network: &Network, node: msf::Node) -> Result<Sweep> {
+    fn sweep(&self, spec: &SweepSpec, network: &Network, model: Model) -> Result<Sweep> {
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
         let schedule = self.schedule(spec, epsilon[0])?;
         let pairs = network.n_nodes() <= ALL_PAIRS;
         self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
         let component = match &spec.component {
-            Some(name) => self.component("sweep.component", name, node.model)?,
+            Some(name) => self.component("sweep.component", name, model)?,
             None => 0,
         };
         let reference = match &spec.error_to {

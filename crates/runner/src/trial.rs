@@ -2,6 +2,7 @@
 //! stability function, the steps of the network, and the sampling of its errors, each by itself. They
 //! take about a second together, two for a million nodes, since what grows is clipped and scaled.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
@@ -43,7 +44,7 @@ pub fn of_msf(plan: &Plan) -> Trial {
     let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
     let node = &plan.node;
     let (seconds, exponents) =
-        timed(|| master_exponents(node.model, node.coupling, &times, &tangents, &|_| ()));
+        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, &|_| ()));
     let per_step = seconds / (16.0 * times.steps() as f64);
     Trial {
         seconds: per_step * plan.msf_steps() as f64,
@@ -114,8 +115,8 @@ impl<'a> Bench<'a> {
 
     fn run(&self, observables: Observables) -> Trial {
         let simulation = Simulation {
-            model: self.plan.node.model,
-            coupling: self.plan.node.coupling,
+            dynamics: Arc::new(self.plan.node.model),
+            coupling: self.plan.node.coupling.clone(),
             matrix: self.plan.matrix.matrix(),
             method: self.sweep.method,
             schedule: self.schedule,

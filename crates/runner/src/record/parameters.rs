@@ -1,6 +1,7 @@
 //! Every parameter that a run used, in the words of experiment files: what the file says, the defaults
 //! for what it leaves out, and what `--quick` made of the times.
 
+use dynamics::NodeDynamics;
 use serde_json::{Value, json};
 
 use crate::plan::Plan;
