@@ -11,15 +11,16 @@ pub use pairs::{distance, error_matrix};
 pub use picture::picture;
 pub use room::foreseen;
 
-use crate::figures::{
-    Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
-    NetworkPanel, Node, Panel, Placement, Scale, Series, Shade, Spread, SpreadStyle, Tone,
-    msf_panel,
-};
 use crate::findings::Findings;
 use crate::plan::{Plan, Sweep};
 use crate::simulated::{OverSeeds, Simulated};
 use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
+use crate::table::three_digits;
+use figures::{
+    Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
+    NetworkPanel, Node, Panel, Placement, Scale, Series, Shade, Spread, SpreadStyle, Tone,
+    msf_panel,
+};
 
 /// Resolution of the PNG: what journals ask for.
 const DOTS_PER_INCH: f64 = 300.0;
@@ -136,7 +137,7 @@ fn msf(findings: &Findings) -> LinePanel {
         lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),
         standard_error: msf.lambda.iter().map(|lambda| lambda.standard_error).collect(),
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
-        zeros: msf.stable.zeros().map(|zero| zero.sigma).collect(),
+        zeros: msf.stable.zeros().map(|zero| (zero.sigma, three_digits(zero.sigma))).collect(),
     })
 }
 

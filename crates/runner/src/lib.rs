@@ -14,7 +14,6 @@ mod compare;
 mod computed;
 mod doubts;
 mod drawing;
-mod figures;
 mod files;
 mod findings;
 mod journal;

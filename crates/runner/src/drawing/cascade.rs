@@ -2,9 +2,9 @@
 
 use clustering::Partition;
 
-use crate::figures::{CascadeCluster, CascadePanel, CascadeState};
 use crate::findings::Findings;
 use crate::plan::Plan;
+use figures::{CascadeCluster, CascadePanel, CascadeState};
 
 /// The states of a prediction, from strong coupling down.
 pub fn panel(plan: &Plan, findings: &Findings) -> CascadePanel {

@@ -4,14 +4,14 @@
 use clustering::{Correlation, EigenvectorDistance, Partition, maximum_overlap};
 
 use crate::agreement::{Agreement, Predicted, Regions};
-use crate::figures::{
-    Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
-    components_panel, pairs_figure,
-};
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::plain;
 use crate::simulated::Simulated;
+use figures::{
+    Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
+    components_panel, pairs_figure,
+};
 
 /// Modes whose eigenvectors are drawn where the experiment does not say.
 const DEFAULT_MODES: std::ops::RangeInclusive<usize> = 2..=4;

@@ -4,10 +4,10 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{DOTS_PER_INCH, figure, foreseen};
-use crate::figures::{Drawn, png};
 use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::spec::FigureKind;
+use figures::{Drawn, png};
 
 /// The files, those that could be made, and what is not as it was asked for.
 #[derive(Default)]

@@ -9,7 +9,6 @@ use xmlwriter::{Indent, Options, XmlWriter};
 use super::font::{FAMILY, Face};
 use super::label::Label;
 use super::style::{INK, Shape, Stroke};
-use crate::output::is_command;
 
 /// A place on the page: x to the right, y down.
 pub(super) type Point = [f64; 2];
@@ -326,7 +325,7 @@ impl Canvas {
 
     // The writer escapes `<` only, and XML has no place for most control characters, nor for two more.
     fn text(&mut self, text: &str) {
-        let is_shown = |c: char| !is_command(c) && !matches!(c, '\u{fffe}' | '\u{ffff}');
+        let is_shown = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
         let shown: String =
             text.chars().map(|c| if is_shown(c) { c } else { '\u{fffd}' }).collect();
         self.xml.set_preserve_whitespaces(true);

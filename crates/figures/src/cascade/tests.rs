@@ -3,8 +3,8 @@
 
 use super::layout::{Clusters, Strand, strands};
 use super::*;
-use crate::figures::font::{Face, text_width};
-use crate::figures::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
+use crate::font::{Face, text_width};
+use crate::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
 use resvg::usvg::roxmltree::{Document, Node};
 
 fn cluster(n_nodes: usize, parent: Option<usize>, label: &str) -> CascadeCluster {

@@ -2,11 +2,11 @@
 
 use super::columns::Columns;
 use super::{AXIS_GAP, CascadeState, NUMBER_GAP, TICK_LENGTH};
-use crate::figures::axis::{Axis, Scale, Tick};
-use crate::figures::canvas::{Anchor, Canvas, Rect};
-use crate::figures::font::CAP_HEIGHT;
-use crate::figures::label::Label;
-use crate::figures::style::{AXIS_WIDTH, INK, LABEL_SIZE, MARKER_INK, Stroke, TICK_SIZE};
+use crate::axis::{Axis, Scale, Tick};
+use crate::canvas::{Anchor, Canvas, Rect};
+use crate::font::CAP_HEIGHT;
+use crate::label::Label;
+use crate::style::{AXIS_WIDTH, INK, LABEL_SIZE, MARKER_INK, Stroke, TICK_SIZE};
 
 /// Distances from the bands to the values of critical couplings, and to the axis.
 const VALUES: f64 = AXIS_GAP + 1.5 + CAP_HEIGHT * TICK_SIZE;

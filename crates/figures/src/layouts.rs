@@ -104,7 +104,7 @@ fn grid(title: String, n_columns: usize, aspects: Vec<f64>, panels: Vec<Panel>) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::{Group, Label, Mode, Node, Placement, PositionsPanel, components_panel};
+    use crate::{Group, Label, Mode, Node, Placement, PositionsPanel, components_panel};
 
     fn comparison(n_pairs: usize) -> Comparison {
         let node = |k: usize| Node { label: String::new(), cluster: Some(k) };
@@ -197,7 +197,7 @@ mod tests {
         assert!(figure.svg().is_ok());
         assert!(matches!(
             pairs_figure(String::new(), vec![]).svg(),
-            Err(crate::figures::FigureError::NoPanels)
+            Err(crate::FigureError::NoPanels)
         ));
     }
 }

@@ -53,8 +53,8 @@ fn encode(pixels: &Pixmap, dots_per_inch: f64) -> Result<Vec<u8>, FigureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::canvas::{Anchor, Canvas};
-    use crate::figures::label::Label;
+    use crate::canvas::{Anchor, Canvas};
+    use crate::label::Label;
 
     fn decoded(bytes: &[u8]) -> (png::OutputInfo, Vec<u8>) {
         let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();

@@ -5,10 +5,10 @@
 use super::columns::{Column, Columns};
 use super::layout::{Clusters, Strand, Stretch};
 use super::{CascadePanel, count_within};
-use crate::figures::canvas::{Canvas, Point, Rect};
-use crate::figures::font::CAP_HEIGHT;
-use crate::figures::label::Label;
-use crate::figures::style::{INK, Stroke, TICK_SIZE, cluster_fill, ink_on};
+use crate::canvas::{Canvas, Point, Rect};
+use crate::font::CAP_HEIGHT;
+use crate::label::Label;
+use crate::style::{INK, Stroke, TICK_SIZE, cluster_fill, ink_on};
 
 /// Strands that never are this thick cannot be seen.
 const VISIBLE: f64 = 0.1;

@@ -306,7 +306,7 @@ mod tests {
         let image = document.descendants().find(|n| n.has_tag_name("image")).unwrap();
         let [left, top, side] =
             ["x", "y", "width"].map(|name| image.attribute(name).unwrap().parse::<f64>().unwrap());
-        let bytes = crate::figures::png(&svg, 300.0).unwrap();
+        let bytes = crate::png(&svg, 300.0).unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut pixels).unwrap();

@@ -7,7 +7,6 @@
 use super::label::Label;
 use super::lines::{LinePanel, Note, Shade, Tone};
 use super::series::{Series, Spread, SpreadStyle};
-use crate::table::three_digits;
 
 /// What a panel of the master stability function shows.
 #[derive(Clone, Debug)]
@@ -20,8 +19,8 @@ pub struct MsfCurve {
     pub standard_error: Vec<f64>,
     /// Intervals of σ with Λ < 0; none for an end beyond the σ that were looked at.
     pub stable: Vec<(f64, Option<f64>)>,
-    /// Zeros of Λ; other ends of intervals are only those of the look.
-    pub zeros: Vec<f64>,
+    /// Zeros of Λ, each as a number in words; other ends of intervals are only those of the look.
+    pub zeros: Vec<(f64, String)>,
 }
 
 /// The panel: band of ± 2 standard errors, zeros labelled σ_c or, where there are several, σ_1, σ_2, ….
@@ -43,7 +42,7 @@ pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
             spread: Some(Spread { lower: ends(-1.0), upper: ends(1.0), drawn: SpreadStyle::Band }),
             ..Series::default()
         }],
-        notes: curve.zeros.iter().enumerate().map(|(k, &zero)| note(&name(k), zero)).collect(),
+        notes: curve.zeros.iter().enumerate().map(|(k, zero)| note(&name(k), zero)).collect(),
         // An open interval is shaded beyond the right edge of the frame, which cuts it.
         shaded: vec![Shade {
             spans: stable.map(|&(from, to)| [from, to.unwrap_or(2.0 * last.max(from))]).collect(),
@@ -54,10 +53,9 @@ pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
     }
 }
 
-fn note(name: &str, zero: f64) -> Note {
-    let value = three_digits(zero);
+fn note(name: &str, (zero, value): &(f64, String)) -> Note {
     let label = Label::math("σ").subscript(name).with_math(&format!(" = {value}"));
-    Note { at: [zero, 0.0], label }
+    Note { at: [*zero, 0.0], label }
 }
 
 #[cfg(test)]
@@ -83,7 +81,7 @@ mod tests {
             lambda: vec![1.0, -1.0],
             standard_error: vec![0.25, 0.5],
             stable: vec![(0.5, None)],
-            zeros: vec![0.5],
+            zeros: vec![(0.5, "0.5".into())],
         });
         let spread = panel.series[0].spread.as_ref().unwrap();
         assert_eq!((&spread.lower[..], &spread.upper[..]), (&[0.5, -2.0][..], &[1.5, 0.0][..]));

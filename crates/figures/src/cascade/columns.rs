@@ -4,8 +4,8 @@
 //! first towards ε = ∞, the last towards ε = 0) go on to the edge of the frame.
 
 use super::CascadeState;
-use crate::figures::axis::{Axis, Scale};
-use crate::figures::canvas::Rect;
+use crate::axis::{Axis, Scale};
+use crate::canvas::Rect;
 
 /// A dot of a PNG at 300 dots per inch, in points: states narrower than this cannot be seen.
 const DOT: f64 = 0.24;
