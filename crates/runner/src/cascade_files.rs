@@ -48,7 +48,7 @@ pub fn write(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
 }
 
 /// The trees, each with its number from 1 and the number of its first cluster.
-fn numbered(findings: &Findings) -> impl Iterator<Item = (usize, usize, &CascadeTree)> {
+pub fn numbered(findings: &Findings) -> impl Iterator<Item = (usize, usize, &CascadeTree)> {
     let mut first = 1;
     (1..).zip(&findings.trees).map(move |(number, tree)| {
         let numbered = (number, first, tree);

@@ -13,6 +13,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::findings::Findings;
+use crate::output::one_line;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
 use crate::spec::{ClaimSpec, OneOrMany, Quantity};
@@ -43,6 +44,21 @@ pub struct Claim {
     pub reason: String,
 }
 
+impl Claim {
+    /// The name as a sentence: `_` is a blank, and a decimal point between two digits, since a key in
+    /// TOML has no other.
+    pub fn sentence(&self) -> String {
+        let chars: Vec<char> = one_line(&self.name).chars().collect();
+        let is_digit = |at: usize| chars.get(at).is_some_and(char::is_ascii_digit);
+        let shown = |(at, &c): (usize, &char)| match c {
+            '_' if at > 0 && is_digit(at - 1) && is_digit(at + 1) => '.',
+            '_' => ' ',
+            c => c,
+        };
+        chars.iter().enumerate().map(shown).collect()
+    }
+}
+
 /// Runs that came to their end, at the ε of a claim at which they are fewest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Runs {
@@ -71,6 +87,9 @@ pub enum Verdict {
     /// What was obtained is not known well enough to tell.
     #[serde(rename = "cannot be judged")]
     CannotBeJudged,
+    /// The averages of a quick run are too short to tell.
+    #[serde(rename = "needs a full run")]
+    NeedsFullRun,
 }
 
 /// Whether what was obtained is what is claimed.
@@ -133,6 +152,7 @@ impl fmt::Display for Verdict {
             Self::Differs => "differs",
             Self::DiffersAsKnown => "differs as known",
             Self::CannotBeJudged => "cannot be judged",
+            Self::NeedsFullRun => "needs a full run",
         })
     }
 }
@@ -162,10 +182,15 @@ impl Judge<'_> {
             Quantity::CascadeOrder | Quantity::SimulatedOrder => self.order()?,
             _ => self.numbers()?,
         };
+        let is_quick = self.plan.shortened > 1.0;
         let verdict = match (&answer, &spec.known_difference) {
             (Answer::Holds, _) => Verdict::Holds,
+            (Answer::CannotBeJudged(_), _) if is_quick && self.is_averaged() => {
+                Verdict::NeedsFullRun
+            }
             (Answer::CannotBeJudged(_), _) => Verdict::CannotBeJudged,
             (Answer::Differs, Some(_)) => Verdict::DiffersAsKnown,
+            (Answer::Differs, _) if is_quick && self.is_simulated() => Verdict::NeedsFullRun,
             (Answer::Differs | Answer::NothingToJudge, _) => Verdict::Differs,
         };
         let reason = match answer {
@@ -190,6 +215,12 @@ impl Judge<'_> {
             verdict,
             reason,
         })
+    }
+
+    /// Whether a quantity follows from averages over a time, which `--quick` shortens.
+    fn is_averaged(&self) -> bool {
+        use Quantity as Q;
+        !matches!(self.spec.of, Q::Eigenvalues | Q::Eigenvectors | Q::Nodes | Q::Links | Q::Groups)
     }
 
     /// Whether a number follows from a zero of Λ that could not be refined.

@@ -1,26 +1,13 @@
 //! The command line: `eigensync run`, `predict`, `check`, `compare`, `list`.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 use dynamics::InstructionSet;
 
-use crate::agreement::Agreement;
-use crate::claims::{Claim, Verdict};
-use crate::computed::Curves;
-use crate::journal::Journal;
 use crate::output::{one_line, say, shown, tell};
-use crate::place::Place;
-use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
-use crate::spec::FigureKind;
-use crate::{
-    check, claims, compare, findings, list, place, predict, results, simulated, step_effect, table,
-};
-
-/// Predicted states of an experiment beside simulation that are shown; its summary has them all.
-const STATES_SHOWN: usize = 12;
+use crate::{check, closing, compare, list, place, plan, predict, run};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -34,8 +21,8 @@ pub struct Cli {
     command: Command,
 }
 
-const EXIT_STATUS: &str = "Exit status: 0 when all claims and comparisons hold, 1 when some do not, \
-2 when a command could not run.";
+const EXIT_STATUS: &str = "Exit status: 0 when all claims and comparisons hold (with --quick, all that \
+a quick run can decide), 1 when some do not, 2 when a command could not run.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -76,6 +63,9 @@ enum Command {
     Compare {
         /// Names of experiments; all that have golden outputs by default
         ids: Vec<String>,
+        /// Say of every value that differs by how much, whether it is judged or not
+        #[arg(long)]
+        all: bool,
         #[command(flatten)]
         folders: Folders,
     },
@@ -104,7 +94,8 @@ pub fn run(cli: Cli) -> Result<bool> {
     match cli.command {
         Command::Run { files, quick, fresh, threads, instruction_set, folders } => {
             use_threads(threads)?;
-            run_files(&files, (quick, fresh), instruction_set, &folders)
+            let Folders { results, golden } = folders;
+            run::run(&files, &run::Options { quick, fresh, instruction_set, results, golden })
         }
         Command::Predict(args) => {
             use_threads(args.threads)?;
@@ -116,7 +107,7 @@ pub fn run(cli: Cli) -> Result<bool> {
             }
             Ok(true)
         }
-        Command::Compare { ids, folders } => {
+        Command::Compare { ids, all, folders } => {
             let golden = golden_ids(&folders.golden)?;
             if let Some(unknown) = ids.iter().find(|id| !golden.contains(id)) {
                 let message = format!("there is no golden output called `{unknown}`");
@@ -135,7 +126,7 @@ pub fn run(cli: Cli) -> Result<bool> {
                 );
                 (id, folder)
             };
-            compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden)
+            compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden, all)
         }
         Command::List { experiments, folders } => {
             list::list(&experiments, &folders.results).map(|()| true)
@@ -172,128 +163,21 @@ fn instruction_set(name: &str) -> std::result::Result<InstructionSet, String> {
     if set.is_available() { Ok(set) } else { Err("this processor does not have it".into()) }
 }
 
-/// Plans all files before running any, so that a slip in the last one shows at once.
-fn run_files(
-    files: &[PathBuf],
-    (quick, fresh): (bool, bool),
-    instruction_set: Option<InstructionSet>,
-    folders: &Folders,
-) -> Result<bool> {
-    let started = Instant::now();
-    let (mut plans, left_out) = plan::all(files, quick)?;
-    for plan in &mut plans {
-        plan.msf.instruction_set = instruction_set.unwrap_or(plan.msf.instruction_set);
-    }
-    let reserve =
-        |plan: &Plan| Place::reserve(&folders.results, &plan.id, ("run", &plan.file), quick);
-    let places = plans.iter().map(reserve).collect::<Result<Vec<Place>>>()?;
-    let mut curves = Curves::default();
-    let mut judged: Vec<(String, Vec<Claim>)> = Vec::new();
-    let mut times = Vec::new();
-    let mut agreements: Vec<(String, f64, Agreement)> = Vec::new();
-    let mut states: Vec<table::StateRow> = Vec::new();
-    let mut written = Vec::new();
-    for (plan, place) in plans.iter().zip(places) {
-        let started = Instant::now();
-        let planned = plan.stages.total();
-        let took = || planned + started.elapsed();
-        let journal = Journal::open(place.unfinished(), &plan.id, fresh)?;
-        // It outlives a failure, so that it is the journal that says whether there is work to keep.
-        let mut place = Some(place);
-        let done = || {
-            let found = findings::find(plan, &mut curves, &journal)?;
-            let claims = claims::judge(plan, &found)?;
-            let place = place.take().expect("results are written once");
-            let place = results::write(plan, &found, claims.clone(), took, place)?;
-            Ok((found, claims, place))
-        };
-        let (found, claims, place) = journal.until(done)?;
-        times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
-        tell!("{}: {} in {}", plan.id, shown(&place), seconds(took()));
-        judged.push((plan.id.clone(), claims));
-        states.extend(state_rows(plan, &found));
-        if let Some(looked) = step_effect::looked_at(&found.step_effects) {
-            tell!("{}: {looked}", plan.id);
-        }
-        written.push((plan.id.clone(), place));
-        if matches!(plan.figure_kind(), FigureKind::Matrices | FigureKind::Regions) {
-            let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
-            let rows = epsilon.into_iter().zip(found.agreement);
-            agreements.extend(rows.map(|(epsilon, row)| (plan.id.clone(), epsilon, row)));
-        }
-    }
-    let with_claims = judged.iter().filter(|(_, claims)| !claims.is_empty());
-    say!("{}", table::claims(with_claims.map(|(id, claims)| (id.as_str(), &claims[..]))));
-    if let Some(table) = table::states(&states) {
-        say!("{table}\n");
-    }
-    let rows = agreements.iter().map(|(id, epsilon, row)| (id.as_str(), *epsilon, row));
-    if let Some(table) = table::agreement(rows) {
-        say!("{table}\n");
-    }
-    if plans.len() > 1 {
-        say!("{}\n", table::times(&times));
-    }
-    let all = || judged.iter().flat_map(|(_, claims)| claims);
-    for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
-        say!("{}: {}", one_line(&claim.name).replace('_', " "), one_line(&claim.reason));
-    }
-    let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
-    let undecided = match count(Verdict::CannotBeJudged) {
-        0 => String::new(),
-        undecided => format!(", {undecided} cannot be judged"),
-    };
-    say!(
-        "{} claims hold, {} differ as known, {} differ{undecided}; {}",
-        count(Verdict::Holds),
-        count(Verdict::DiffersAsKnown),
-        count(Verdict::Differs),
-        seconds(started.elapsed())
-    );
-    if count(Verdict::Differs) > 0 && plans.iter().any(|plan| plan.shortened > 1.0) {
-        say!(
-            "times were shortened by --quick: whether a simulated claim holds, a full run decides"
-        );
-    }
-    for problem in &left_out {
-        say!("left out: {problem}");
-    }
-    let golden = compare_all(&written, &folders.golden)?;
-    Ok(golden && count(Verdict::Differs) + count(Verdict::CannotBeJudged) == 0)
-}
-
-/// The first predicted states with clusters, and what the sweep shows of them.
-fn state_rows(plan: &Plan, found: &findings::Findings) -> Vec<table::StateRow> {
-    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
-    let states = found.cascade.iter().enumerate().filter(|_| has_pairs);
-    let row = |(at, state): (usize, &clustering::State)| {
-        let clusters = state.clusters.nontrivial();
-        if clusters.is_empty() {
-            return None;
-        }
-        let simulated::Seen { onset, end } = found.state_seen(at, &clusters)?;
-        let (id, predicted) = (plan.id.clone(), state.epsilon);
-        Some(table::StateRow { id, predicted, seen: [onset, end], runs: found.runs_in(state)? })
-    };
-    states.filter_map(row).take(STATES_SHOWN).collect()
-}
-
-/// Compares results, given by name and place, with the golden ones of the same name.
-fn compare_all(results: &[(String, PathBuf)], golden: &Path) -> Result<bool> {
-    let mut all_hold = true;
+/// Compares results, given by name and place, with the golden ones of the same name: what differs, or
+/// everything that does, and a line for all.
+fn compare_all(results: &[(String, PathBuf)], golden: &Path, all: bool) -> Result<bool> {
+    let mut compared = Vec::new();
     for (id, place) in results {
-        let Some(comparison) = compare::compare(place, &golden.join(id))? else {
-            say!("{id}: no golden output to compare with");
-            continue;
-        };
-        let verdict = if comparison.holds() { "holds" } else { "differs" };
-        say!("{id}: the comparison with the golden output {verdict}");
-        for line in comparison.lines() {
-            say!("    {line}");
+        let Some(comparison) = compare::compare(place, &golden.join(id))? else { continue };
+        let lines = if all { comparison.lines() } else { comparison.first_failures() };
+        for line in lines {
+            say!("{}: {}", one_line(id), one_line(line));
         }
-        all_hold &= comparison.holds();
+        compared.push((&id[..], comparison));
     }
-    Ok(all_hold)
+    let compared: Vec<_> = compared.iter().map(|(id, comparison)| (*id, comparison)).collect();
+    say!("{}", closing::compared_in_a_line(&compared));
+    Ok(compared.iter().all(|(_, comparison)| comparison.holds()))
 }
 
 fn golden_ids(golden: &Path) -> Result<Vec<String>> {
@@ -313,8 +197,4 @@ fn golden_ids(golden: &Path) -> Result<Vec<String>> {
     }
     ids.sort();
     Ok(ids)
-}
-
-fn seconds(time: Duration) -> String {
-    format!("{:.1} s", time.as_secs_f64())
 }

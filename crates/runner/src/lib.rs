@@ -2,7 +2,7 @@
 //!
 //! The stages of a run stand in this order: `load` reads what the file says (`spec`), `plan` makes
 //! of it what will be done, `findings` does it, `claims` judges it, `results` writes it (`record`,
-//! `drawing`), `compare` holds it against the golden outputs. Only this crate knows paths, clocks
+//! `drawing`, `report`), `compare` holds it against the golden outputs, `closing` says how it ended. Only this crate knows paths, clocks
 //! and terminals; it knows no numerical method.
 
 mod agreement;
@@ -10,6 +10,7 @@ mod cascade_files;
 mod check;
 mod claims;
 mod cli;
+mod closing;
 mod compare;
 mod computed;
 mod doubts;
@@ -20,6 +21,7 @@ mod journal;
 mod list;
 mod load;
 mod machine;
+mod membership;
 mod output;
 mod overview;
 mod place;
@@ -30,7 +32,9 @@ mod problem;
 mod progress;
 mod provenance;
 mod record;
+mod report;
 mod results;
+mod run;
 mod signals;
 mod simulated;
 mod spec;

@@ -1,7 +1,8 @@
 //! A prediction in words: the network, its leading modes, the stable set, the cascade of states, which
-//! of their clusters are exact, and what it all took.
+//! of their clusters are exact, where these were seen in simulation, and what it all took.
 
 mod exactness;
+mod onsets;
 
 use std::fmt::Write;
 
@@ -23,7 +24,7 @@ const SHOWN: usize = 12;
 /// Sizes shown of the clusters of one state.
 const SIZES: usize = 5;
 
-/// The prediction of a plan.
+/// The prediction of a plan, beside what its sweep shows of it, without what it took.
 pub fn of(plan: &Plan, findings: &Findings) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
@@ -38,7 +39,10 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("", String::new());
     text.push_str(&cascade(plan, findings));
     text.push_str(&exactness::of(plan, findings));
-    writeln!(text, "\n{}", cost(plan)).expect("a string takes every line");
+    if let Some(onsets) = onsets::of(plan, findings) {
+        text.push('\n');
+        text.push_str(&onsets);
+    }
     text
 }
 
@@ -171,7 +175,7 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
 }
 
 /// Seconds by stage, and memory where the system tells it.
-fn cost(plan: &Plan) -> String {
+pub fn cost(plan: &Plan) -> String {
     let stages = plan.stages.took().into_iter();
     let stages = stages.map(|(name, time)| format!("{name} {:.1} s", time.as_secs_f64()));
     let mut text = stages.collect::<Vec<_>>().join(", ");

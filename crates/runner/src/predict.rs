@@ -101,10 +101,11 @@ pub fn run(args: &Args) -> Result<()> {
         let found = findings::find(&plan, &mut Curves::default(), &journal)
             .map_err(|problem| problem.renamed(&file, &args.network))?;
         let place = place.take().expect("results are written once");
-        let place = results::write(&plan, &found, Vec::new(), || started.elapsed(), place)?;
-        Ok((plan, found, place))
+        let took = || started.elapsed();
+        let written = results::write(&plan, &found, Vec::new(), None, took, place)?;
+        Ok((plan, found, written.place))
     })?;
-    say!("{}", overview::of(&plan, &found).trim_end());
+    say!("{}\n{}", overview::of(&plan, &found), overview::cost(&plan));
     say!("\nresults in {}, in {:.1} s", shown(&place), started.elapsed().as_secs_f64());
     say!("the same as an experiment file: {}", shown(place.join(results::EXPERIMENT)));
     Ok(())

@@ -4,15 +4,19 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use dynamics::{Errors, Estimate};
+use serde_json::Value;
 
 use crate::cascade_files;
 use crate::claims::Claim;
+use crate::compare::{self, Comparison};
 use crate::drawing;
 use crate::findings::Findings;
+use crate::membership;
 use crate::place::{Folder, Place};
 use crate::plan::Plan;
 use crate::problem::{Problem, Result, plain};
-use crate::record::summarise;
+use crate::record::{Summary, summarise};
+use crate::report::{self, REPORT};
 use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
 use crate::warning::Warnings;
@@ -22,15 +26,23 @@ const EIGENVECTOR_TABLE: usize = 5000;
 /// The experiment file that says the same as the options of a prediction.
 pub const EXPERIMENT: &str = "experiment.toml";
 
-/// Writes the results folder and gives its place; `took` says how long the run has taken when asked.
-/// Numbers come first, and whatever becomes of the figure costs none of them.
+/// Results that are in place.
+pub struct Written {
+    pub place: PathBuf,
+    /// With the golden output, where there is one.
+    pub comparison: Option<Comparison>,
+}
+
+/// Writes the results folder; `took` says how long the run has taken when asked, `golden` is the
+/// golden summary. Numbers come first, and whatever becomes of the figure costs none of them.
 pub fn write(
     plan: &Plan,
     findings: &Findings,
     claims: Vec<Claim>,
+    golden: Option<&Value>,
     took: impl FnOnce() -> Duration,
     place: Place,
-) -> Result<PathBuf> {
+) -> Result<Written> {
     let stages = &plan.stages;
     let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
@@ -49,17 +61,28 @@ pub fn write(
     }
     let mut summary = summarise(plan, findings, claims, (took(), &stages.took()), place.origin());
     summary.warnings.extend(warnings.into_list());
-    let json = serde_json::to_string_pretty(&summary).map_err(|error| {
+    let failed = |error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
-    })?;
+    };
+    let json = serde_json::to_string_pretty(&summary).map_err(failed)?;
+    let comparison = match golden {
+        Some(golden) => {
+            let value = serde_json::to_value(&summary).map_err(failed)?;
+            Some(compare::compare_summaries(golden, &value))
+        }
+        None => None,
+    };
+    let Summary { claims, warnings, .. } = &summary;
+    folder.write(REPORT, report::of(plan, findings, claims, warnings, comparison.as_ref()))?;
     folder.write("summary.json", json + "\n")?;
-    place.finish(folder)
+    Ok(Written { place: place.finish(folder)?, comparison })
 }
 
 fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
     write_spectrum(folder, plan, findings)?;
     write_msf(folder, findings)?;
     cascade_files::write(folder, plan, findings)?;
+    membership::write(folder, plan, findings)?;
     if let Some(simulated) = &findings.simulated {
         write_sweep(folder, plan, simulated)?;
     }

@@ -9,14 +9,16 @@ use std::time::{Duration, Instant};
 use support::{Workplace, tiny};
 
 /// The files of a whole results folder.
-const WHOLE: [&str; 10] = [
+const WHOLE: [&str; support::TINY_FILES] = [
     "cascade.csv",
     "cascade.nwk",
     "clusters.csv",
     "eigenvectors.csv",
     "figure.png",
     "figure.svg",
+    "membership.csv",
     "msf.csv",
+    "report.txt",
     "spectrum.csv",
     "summary.json",
     "sweep.csv",

@@ -7,11 +7,13 @@ use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
 use super::{SHOWN, grouped};
 use crate::findings::{EQUITABLE, Findings};
+use crate::output::one_line;
 use crate::plan::Plan;
 use crate::table::{four_digits, two_digits};
 
-/// Nodes shown of one cluster.
+/// Nodes shown of one cluster, and characters of the name of one.
 const NODES: usize = 8;
+const LABEL: usize = 24;
 
 /// The lines about the exactness of a prediction.
 pub fn of(plan: &Plan, findings: &Findings) -> String {
@@ -122,8 +124,14 @@ fn below(state: &State) -> String {
     }
 }
 
-fn named(plan: &Plan, nodes: &[usize]) -> String {
-    let shown = nodes.iter().take(NODES).map(|&node| &plan.network.labels()[node][..]);
+pub(super) fn named(plan: &Plan, nodes: &[usize]) -> String {
+    let shown = nodes.iter().take(NODES).map(|&node| {
+        let label = one_line(&plan.network.labels()[node]);
+        match label.char_indices().nth(LABEL) {
+            Some((end, _)) => format!("{}…", &label[..end]),
+            None => label.into_owned(),
+        }
+    });
     let more = if nodes.len() > NODES { ", …" } else { "" };
     format!("{{{}{more}}}", shown.collect::<Vec<_>>().join(", "))
 }

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::support::Workplace;
+use crate::support::{TINY_FILES, Workplace};
 
 /// Runs the tiny experiment with faults injected; its exit status, none if it was killed.
 pub fn run_with(place: &Workplace, faults: &[&str]) -> Option<i32> {
@@ -60,7 +60,7 @@ fn check_healed(place: &Workplace) {
     place.answer(&["run", "tiny.toml"]).with_status(0);
     check_whole(place);
     assert_eq!(place.names("results"), ["tiny"]);
-    assert_eq!(place.names("results/tiny").len(), 10 + 1);
+    assert_eq!(place.names("results/tiny").len(), TINY_FILES + 1);
 }
 
 #[test]

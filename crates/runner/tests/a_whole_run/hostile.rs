@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use crate::faults::{has_strace, run_with};
 use crate::place::{run, run_as_a_user};
-use crate::support::{Answer, Workplace, tiny};
+use crate::support::{Answer, TINY_FILES, Workplace, tiny};
 
 /// What is mounted, for as long as this lives.
 struct Mounted(PathBuf);
@@ -59,7 +59,7 @@ fn a_file_of_ours_that_cannot_be_read_is_no_edit() {
     let said = run(&place, &tiny(), &[]);
     assert!(!said.contains("kept"), "{said}");
     assert_eq!(place.names("results"), ["tiny"]);
-    assert_eq!(place.names("results/tiny").len(), 10);
+    assert_eq!(place.names("results/tiny").len(), TINY_FILES);
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn results_that_are_taken_away_while_a_run_computes_are_made_again() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert_eq!(place.names("results"), ["tiny"], "{said}");
-    assert_eq!(place.names("results/tiny").len(), 10, "{said}");
+    assert_eq!(place.names("results/tiny").len(), TINY_FILES, "{said}");
 }
 
 #[test]
@@ -245,5 +245,5 @@ fn a_stream_that_was_closed_is_as_one_that_nobody_reads() {
         assert_eq!(command.output().unwrap().status.code(), Some(0), "{script}");
     }
     place.json("results/tiny/summary.json");
-    assert_eq!(place.names("results/tiny").len(), 10);
+    assert_eq!(place.names("results/tiny").len(), TINY_FILES);
 }

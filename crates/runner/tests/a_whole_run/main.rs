@@ -3,6 +3,7 @@
 
 mod cascade;
 mod comparison;
+mod ending;
 mod faults;
 mod figures;
 mod honest;

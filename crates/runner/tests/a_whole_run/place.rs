@@ -7,7 +7,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::{SIX_NODES, Toml, Workplace, tiny};
+use crate::support::{SIX_NODES, TINY_FILES, Toml, Workplace, tiny};
 
 const LORENZ: [&str; 5] = ["--oscillator", "lorenz", "--coupling", "x:y", "--quick"];
 
@@ -112,7 +112,7 @@ fn what_a_user_put_into_the_results_stays_in_place_when_they_are_replaced() {
         assert!(!place.read("results/tiny/sweep.csv").contains("mine"));
         assert_eq!(place.names("results"), ["tiny"], "{said}");
     }
-    assert_eq!(place.names("results/tiny").len(), 10 + 4);
+    assert_eq!(place.names("results/tiny").len(), TINY_FILES + 4);
 }
 
 #[test]

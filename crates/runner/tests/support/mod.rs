@@ -57,6 +57,9 @@ pub const SIX_NODES: &str = include_str!("../../../../experiments/networks/six-n
 /// The text of an experiment file under edit.
 pub struct Toml(pub String);
 
+/// How many files the results folder of the tiny experiment has.
+pub const TINY_FILES: usize = 12;
+
 /// The tiny experiment as it stands.
 pub fn tiny() -> Toml {
     Toml(TINY.to_owned())

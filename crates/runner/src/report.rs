@@ -1,0 +1,67 @@
+//! `report.txt`: a run in words, in full. The terminal ends in a screen (`closing`); what does not fit
+//! there stands here: the prediction beside simulation, every claim, every value that differs from the
+//! golden output.
+
+use std::fmt::Write;
+
+use crate::claims::Claim;
+use crate::compare::Comparison;
+use crate::findings::Findings;
+use crate::output::{one_line, printable};
+use crate::overview;
+use crate::plan::Plan;
+use crate::table;
+use crate::warning::Warning;
+
+/// Its name in the results folder.
+pub const REPORT: &str = "report.txt";
+
+/// The report of a run; times and memory stand in the summary alone, so that equal runs have equal
+/// reports.
+pub fn of(
+    plan: &Plan,
+    findings: &Findings,
+    claims: &[Claim],
+    warnings: &[Warning],
+    comparison: Option<&Comparison>,
+) -> String {
+    let mut text = format!("{}: {}\n\n", plan.id, one_line(&plan.experiment.title));
+    text.push_str(&overview::of(plan, findings));
+    if !claims.is_empty() {
+        add(&mut text, "claims", &table::claims(claims));
+        let reasons = claims.iter().filter(|claim| !claim.reason.is_empty());
+        for claim in reasons {
+            line(&mut text, format_args!("{}: {}", claim.sentence(), one_line(&claim.reason)));
+        }
+    }
+    let epsilon = findings.simulated.as_ref().map_or(&[][..], |simulated| &simulated.epsilon);
+    let agreement = epsilon.iter().copied().zip(&findings.agreement);
+    if let Some(table) = table::agreement(agreement) {
+        add(&mut text, "prediction against simulation", &table);
+    }
+    if !warnings.is_empty() {
+        add(&mut text, "warnings", "");
+        for warning in warnings {
+            line(&mut text, format_args!("{}: {}", warning.about, one_line(&warning.message)));
+        }
+    }
+    if let Some(comparison) = comparison {
+        let lines = comparison.lines();
+        let verdict = if comparison.holds() { "holds" } else { "differs" };
+        add(&mut text, &format!("the comparison with the golden output {verdict}"), "");
+        line(&mut text, format_args!("{} values differ", lines.len()));
+        lines.iter().for_each(|moved| line(&mut text, format_args!("{}", one_line(moved))));
+    }
+    printable(&text).into_owned()
+}
+
+fn add(text: &mut String, title: &str, content: &str) {
+    write!(text, "\n{title}\n").expect("a string takes every line");
+    if !content.is_empty() {
+        line(text, format_args!("{content}"));
+    }
+}
+
+fn line(text: &mut String, what: std::fmt::Arguments<'_>) {
+    writeln!(text, "{what}").expect("a string takes every line");
+}
