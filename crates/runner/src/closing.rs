@@ -5,13 +5,12 @@ use std::path::PathBuf;
 
 use crate::claims::{Claim, Verdict};
 use crate::compare::Comparison;
-use crate::output::{one_line, shown};
+use crate::output::{one_line, shown, terminal_size};
 use crate::report::REPORT;
 use crate::table::readable;
 
-/// A screen, less the line that a shell prompts in.
-const LINES: usize = 23;
-const COLUMNS: usize = 80;
+/// Where no terminal says how large it is.
+const SCREEN: [u16; 2] = [24, 100];
 /// Continued lines begin with so many blanks.
 const INDENT: usize = 4;
 /// Most values shown that differ from golden outputs.
@@ -37,23 +36,33 @@ impl Outcome {
 
 /// The last screen; `left_out` says which experiments could not be run and why.
 pub fn screen(outcomes: &[Outcome], left_out: &[String], took: &str) -> String {
+    let [lines, columns] = terminal_size().unwrap_or(SCREEN).map(usize::from);
+    // A shell prompts in the last line.
+    fitting(outcomes, left_out, took, [lines.max(2) - 1, columns])
+}
+
+fn fitting(
+    outcomes: &[Outcome],
+    left_out: &[String],
+    took: &str,
+    [most, columns]: [usize; 2],
+) -> String {
+    let wrapped = |paragraphs: Vec<String>| wrapped(paragraphs, columns);
     let left_out = left_out.iter().map(|problem| format!("left out: {problem}"));
-    let above: Vec<String> = wrapped(verdicts(outcomes));
-    let below: Vec<String> = wrapped(golden(outcomes).into_iter().chain(left_out))
-        .into_iter()
-        .chain(wrapped([format!("{}; {took}", in_full(outcomes))]))
-        .collect();
-    let room = LINES.saturating_sub(above.len() + below.len());
+    let above = wrapped(verdicts(outcomes).into_iter().collect());
+    let in_full = format!("{}; {took}", in_full(outcomes));
+    let below = wrapped(golden(outcomes).into_iter().chain(left_out).chain([in_full]).collect());
+    let room = most.saturating_sub(above.len() + below.len());
+    let entries = entries(outcomes).into_iter().map(|entry| wrapped(vec![entry])).collect();
     let mut lines = above;
-    lines.extend(as_far_as_fits(entries(outcomes), room));
+    lines.extend(as_far_as_fits(entries, room));
     lines.extend(below);
     lines.join("\n")
 }
 
 /// The lines of the first entries that fit, and of the others how many they are.
-fn as_far_as_fits(entries: Vec<String>, room: usize) -> Vec<String> {
+fn as_far_as_fits(entries: Vec<Vec<String>>, room: usize) -> Vec<String> {
     let n_entries = entries.len();
-    let entries: Vec<Vec<String>> = entries.into_iter().map(|entry| wrapped([entry])).collect();
     if entries.iter().map(Vec::len).sum::<usize>() <= room {
         return entries.concat();
     }
@@ -122,7 +131,7 @@ fn about(claim: &Claim) -> String {
         sentence.push_str(&format!(" ({runs})"));
     }
     match claim.verdict {
-        Verdict::DiffersAsKnown => format!("{sentence}: differs as known: {reason}"),
+        Verdict::DiffersAsKnown => format!("{sentence}: as known: {reason}"),
         Verdict::CannotBeJudged => format!("{sentence}: cannot be judged: {reason}"),
         Verdict::NeedsFullRun => format!("{sentence}: needs a full run"),
         Verdict::Differs | Verdict::Holds => {
@@ -193,13 +202,13 @@ fn in_full(outcomes: &[Outcome]) -> String {
 }
 
 /// Paragraphs as lines of a screen.
-fn wrapped(paragraphs: impl IntoIterator<Item = String>) -> Vec<String> {
+fn wrapped(paragraphs: Vec<String>, columns: usize) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in paragraphs {
         let (mut line, mut length) = (String::new(), 0);
         for word in paragraph.split_whitespace() {
             let n_chars = word.chars().count();
-            if length > INDENT && length + 1 + n_chars > COLUMNS {
+            if length > INDENT && length + 1 + n_chars > columns {
                 lines.push(std::mem::take(&mut line));
                 line = " ".repeat(INDENT);
                 length = INDENT;
@@ -248,7 +257,7 @@ mod tests {
 
     #[test]
     fn nothing_is_said_of_claims_and_golden_outputs_where_there_are_none() {
-        let said = screen(&[outcome("a", &[])], &[], "1.0 s");
+        let said = fitting(&[outcome("a", &[])], &[], "1.0 s", [23, 80]);
         assert_eq!(said, "in full: results/a/report.txt; 1.0 s");
     }
 
@@ -257,10 +266,10 @@ mod tests {
         let long = "because ".repeat(30);
         let known = [(Verdict::DiffersAsKnown, &long[..]); 20];
         let outcomes = [outcome("a", &known), outcome("b", &[(Verdict::Differs, "")])];
-        let said = screen(&outcomes, &["c".into()], "1.0 s");
+        let said = fitting(&outcomes, &["c".into()], "1.0 s", [23, 80]);
         let lines: Vec<&str> = said.lines().collect();
-        assert!(lines.len() <= LINES, "{said}");
-        assert!(lines.iter().all(|line| line.chars().count() <= COLUMNS), "{said}");
+        assert!(lines.len() <= 23, "{said}");
+        assert!(lines.iter().all(|line| line.chars().count() <= 80), "{said}");
         assert_eq!(lines[0], "0 claims hold, 20 differ as known, 1 differ");
         assert!(lines[1].starts_with("b: four clusters at 5.65: differs: expected 1, obtained 2"));
         assert!(said.contains("more that differ\nleft out: c\nin full: results/a/report.txt, and"));
@@ -269,8 +278,8 @@ mod tests {
     #[test]
     fn all_that_fits_is_said() {
         let known = [(Verdict::DiffersAsKnown, "so"); 21];
-        let said = screen(&[outcome("a", &known)], &[], "1.0 s");
-        assert_eq!(said.lines().count(), LINES, "{said}");
+        let said = fitting(&[outcome("a", &known)], &[], "1.0 s", [23, 80]);
+        assert_eq!(said.lines().count(), 23, "{said}");
         assert!(!said.contains("more"), "{said}");
     }
 }

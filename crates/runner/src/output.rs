@@ -48,6 +48,12 @@ pub fn arrived() -> bool {
     !LOST.load(Ordering::Relaxed)
 }
 
+/// Lines and columns of the terminal that standard output is, if it is one that has some.
+pub fn terminal_size() -> Option<[u16; 2]> {
+    let size = rustix::termios::tcgetwinsize(std::io::stdout()).ok()?;
+    (size.ws_row > 0 && size.ws_col > 0).then_some([size.ws_row, size.ws_col])
+}
+
 fn keep_track(result: std::io::Result<()>) {
     if result.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
         LOST.store(true, Ordering::Relaxed);
