@@ -6,6 +6,7 @@
 mod bench;
 mod compare;
 mod data;
+mod dist;
 mod reproduce;
 mod setup;
 mod test;
@@ -31,6 +32,8 @@ enum Task {
     Compare(compare::Args),
     /// Bring the connectomes that may not be redistributed into data/
     Data(data::Args),
+    /// Pack the program with its manual pages and completions
+    Dist(dist::Args),
     /// Run every test of the workspace
     Test(test::Args),
     /// Run the benchmarks and record them with the machine; --peers also measures other tools
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         Task::Reproduce(args) => reproduce::run(&args),
         Task::Compare(args) => compare::run(&args),
         Task::Data(args) => data::run(&args),
+        Task::Dist(args) => dist::run(&args),
         Task::Test(args) => test::run(&args),
         Task::Bench(args) => bench::run(&args),
         Task::Trust(args) => trust::run(&args),

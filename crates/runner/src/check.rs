@@ -4,15 +4,18 @@ use std::fmt::Write;
 
 use clustering::ClusterRule;
 use dynamics::{Adaptive, AdaptiveOrder, Method};
+use serde::Serialize;
+use serde_json::Value;
 use spectra::Spectrum;
 
 use crate::drawing;
 use crate::output::one_line;
 use crate::plan::{Memory, Plan, Sweep};
+use crate::record::parameters;
 use crate::spec::{FigureKind, MatrixKind};
 use crate::table::{four_digits, two_digits};
 use crate::trial;
-use crate::warning::Warnings;
+use crate::warning::{Warning, Warnings};
 
 /// The largest residual, relative to the eigenvalue, that leaves this certain.
 const CERTAIN: f64 = 0.1;
@@ -121,7 +124,7 @@ pub fn describe(plan: &Plan) -> String {
     line("figure", figure(plan));
     line("claims", experiment.claims.len().to_string());
     line("memory", format!("about {}", Memory::of(plan)));
-    line("cost", cost(plan));
+    line("cost", Cost::of(plan).words());
     text
 }
 
@@ -146,23 +149,103 @@ fn method(sweep: &Sweep) -> &'static str {
 }
 
 /// Steps to be done, and the time they will take at the speed of a short trial on this machine.
-fn cost(plan: &Plan) -> String {
-    let threads = rayon::current_num_threads() as f64;
-    let msf = trial::of_msf(plan);
-    let mut text = format!("msf {:.1e} tangent steps", plan.msf_steps() as f64);
-    let (mut seconds, mut notes) = (msf.seconds, String::new());
-    if msf.escaped {
-        notes.push_str("; the orbit of the msf escapes at once: no time can be told");
-    }
-    if let Some(sweep) = &plan.sweep {
-        let node_steps = sweep.steps() as f64 * plan.network.n_nodes() as f64;
-        write!(text, ", sweep {node_steps:.1e} node steps").expect("a string takes every line");
-        let trial = trial::of_sweep(plan, sweep);
-        seconds += trial.seconds;
-        if trial.escaped {
-            notes.push_str("; in the trial orbits of the sweep escape at once: it may end early");
+#[derive(Serialize)]
+struct Cost {
+    msf_tangent_steps: u64,
+    /// None without a sweep.
+    sweep_node_steps: Option<f64>,
+    seconds: f64,
+    threads: usize,
+    /// What the trial showed that makes the time uncertain.
+    notes: Vec<&'static str>,
+}
+
+impl Cost {
+    fn of(plan: &Plan) -> Self {
+        let threads = rayon::current_num_threads();
+        let msf = trial::of_msf(plan);
+        let (mut seconds, mut notes) = (msf.seconds, Vec::new());
+        if msf.escaped {
+            notes.push("the orbit of the msf escapes at once: no time can be told");
+        }
+        let nodes = plan.network.n_nodes() as f64;
+        if let Some(sweep) = &plan.sweep {
+            let trial = trial::of_sweep(plan, sweep);
+            seconds += trial.seconds;
+            if trial.escaped {
+                notes.push("in the trial orbits of the sweep escape at once: it may end early");
+            }
+        }
+        Self {
+            msf_tangent_steps: plan.msf_steps(),
+            sweep_node_steps: plan.sweep.as_ref().map(|sweep| sweep.steps() as f64 * nodes),
+            seconds: (seconds / threads as f64).ceil(),
+            threads,
+            notes,
         }
     }
-    let seconds = (seconds / threads).ceil();
-    format!("{text}: about {seconds:.0} s on {threads} thread(s){notes}")
+
+    fn words(&self) -> String {
+        let mut text = format!("msf {:.1e} tangent steps", self.msf_tangent_steps as f64);
+        if let Some(node_steps) = self.sweep_node_steps {
+            write!(text, ", sweep {node_steps:.1e} node steps").expect("a string takes every line");
+        }
+        let notes: String = self.notes.iter().map(|note| format!("; {note}")).collect();
+        format!("{text}: about {:.0} s on {} thread(s){notes}", self.seconds, self.threads)
+    }
+}
+
+/// What a plan will do and cost, for programs; keys are those of `summary.json` where it has them.
+#[derive(Serialize)]
+pub struct Checked {
+    id: String,
+    file: String,
+    title: String,
+    /// Every parameter that will be used.
+    parameters: Value,
+    shortened: f64,
+    network: CheckedNetwork,
+    claims: usize,
+    /// What the figure will not show as asked.
+    figure_without: Vec<String>,
+    memory_bytes: u64,
+    cost: Cost,
+    warnings: Vec<Warning>,
+}
+
+/// The network of a plan.
+#[derive(Serialize)]
+struct CheckedNetwork {
+    links_hash: String,
+    nodes: usize,
+    links: usize,
+    components: usize,
+    isolated_nodes: usize,
+    groups: usize,
+}
+
+impl Checked {
+    pub fn of(plan: &Plan) -> Self {
+        let network = &plan.network;
+        Self {
+            id: plan.id.clone(),
+            file: plan.file.to_string_lossy().into_owned(),
+            title: plan.experiment.title.clone(),
+            parameters: parameters::of(plan),
+            shortened: plan.shortened,
+            network: CheckedNetwork {
+                links_hash: plan.links_hash.clone(),
+                nodes: network.n_nodes(),
+                links: network.n_links(),
+                components: plan.n_components,
+                isolated_nodes: network.isolated_nodes().len(),
+                groups: network.groups().len(),
+            },
+            claims: plan.experiment.claims.len(),
+            figure_without: drawing::foreseen(plan),
+            memory_bytes: Memory::of(plan).bytes(),
+            cost: Cost::of(plan),
+            warnings: plan.doubts.clone(),
+        }
+    }
 }

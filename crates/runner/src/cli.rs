@@ -1,13 +1,15 @@
-//! The command line: `eigensync run`, `predict`, `check`, `compare`, `list`.
+//! The command line: `eigensync run`, `predict`, `msf`, `check`, `compare`, `list`.
 
 use std::path::{Path, PathBuf};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 use dynamics::InstructionSet;
 
+use crate::check::Checked;
 use crate::output::{one_line, say, shown, tell};
 use crate::problem::{Problem, Result};
-use crate::{check, closing, compare, list, place, plan, predict, run};
+use crate::{check, closing, compare, curve, list, output, place, plan, predict, run};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.
@@ -17,6 +19,9 @@ use crate::{check, closing, compare, list, place, plan, predict, run};
 #[derive(Parser)]
 #[command(name = "eigensync", version, arg_required_else_help = true, after_help = EXIT_STATUS)]
 pub struct Cli {
+    /// Say only errors and results: no progress, no warnings, which stand in the results as well
+    #[arg(short, long, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -50,6 +55,10 @@ enum Command {
     ///
     /// For example: eigensync predict roads.mtx --oscillator lorenz --coupling x:y
     Predict(predict::Args),
+    /// Compute the master stability function of an oscillator, without a network
+    ///
+    /// For example: eigensync msf --oscillator rossler --coupling x:x
+    Msf(curve::Args),
     /// Say what experiments will do and cost, without running them
     Check {
         /// Experiment files
@@ -58,6 +67,9 @@ enum Command {
         /// As for `run`
         #[arg(long)]
         quick: bool,
+        /// Print one JSON document, and nothing else, on standard output
+        #[arg(long)]
+        json: bool,
     },
     /// Compare results with golden outputs and say what moved
     Compare {
@@ -69,11 +81,29 @@ enum Command {
         #[command(flatten)]
         folders: Folders,
     },
+    /// Print the completions of a shell
+    ///
+    /// For example, for bash: eigensync completions bash >
+    /// ~/.local/share/bash-completion/completions/eigensync
+    Completions {
+        /// Which shell
+        #[arg(value_enum)]
+        shell: Shell,
+    },
+    /// Write the manual pages into a folder; `cargo xtask dist` does
+    #[command(hide = true)]
+    Man {
+        /// Folder that is there
+        folder: PathBuf,
+    },
     /// List experiments with their titles, and what there is of their results
     List {
         /// Folder of experiment files
         #[arg(default_value = "experiments")]
         experiments: PathBuf,
+        /// Print one JSON document, and nothing else, on standard output
+        #[arg(long)]
+        json: bool,
         #[command(flatten)]
         folders: Folders,
     },
@@ -91,6 +121,9 @@ struct Folders {
 
 /// Runs a command; the result says whether everything held.
 pub fn run(cli: Cli) -> Result<bool> {
+    if cli.quiet {
+        output::be_quiet();
+    }
     match cli.command {
         Command::Run { files, quick, fresh, threads, instruction_set, folders } => {
             use_threads(threads)?;
@@ -101,9 +134,21 @@ pub fn run(cli: Cli) -> Result<bool> {
             use_threads(args.threads)?;
             predict::run(&args).map(|()| true)
         }
-        Command::Check { files, quick } => {
-            for file in &files {
-                say!("{}", check::describe(&plan::plan(file, quick)?).trim_end());
+        Command::Msf(args) => {
+            use_threads(args.threads)?;
+            curve::run(&args).map(|()| true)
+        }
+        Command::Check { files, quick, json } => {
+            let plans = files.iter().map(|file| plan::plan(file, quick));
+            if json {
+                let checked =
+                    plans.map(|plan| Ok(Checked::of(&plan?))).collect::<Result<Vec<_>>>()?;
+                let checked = serde_json::json!({ "experiments": checked });
+                output::document(&format!("{checked:#}"));
+                return Ok(true);
+            }
+            for plan in plans {
+                say!("{}", check::describe(&plan?).trim_end());
             }
             Ok(true)
         }
@@ -128,8 +173,19 @@ pub fn run(cli: Cli) -> Result<bool> {
             };
             compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden, all)
         }
-        Command::List { experiments, folders } => {
-            list::list(&experiments, &folders.results).map(|()| true)
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "eigensync", &mut script);
+            output::document(String::from_utf8_lossy(&script).trim_end());
+            Ok(true)
+        }
+        Command::Man { folder } => {
+            clap_mangen::generate_to(Cli::command(), &folder).map(|()| true).map_err(|error| {
+                Problem::from_error("manual pages cannot be written", error).in_file(&folder)
+            })
+        }
+        Command::List { experiments, json, folders } => {
+            list::list(&experiments, &folders.results, json).map(|()| true)
         }
     }
 }

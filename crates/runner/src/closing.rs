@@ -109,7 +109,7 @@ fn entries(outcomes: &[Outcome]) -> Vec<String> {
         })
     };
     let moved = outcomes.iter().flat_map(|outcome| {
-        let failures = outcome.comparison.iter().flat_map(|comparison| comparison.failures());
+        let failures = outcome.comparison.iter().flat_map(Comparison::failures);
         failures.map(|line| format!("{}: {}", outcome.id, one_line(line)))
     });
     let moved: Vec<String> = moved.collect();

@@ -11,6 +11,8 @@ pub use pairs::{distance, error_matrix};
 pub use picture::picture;
 pub use room::foreseen;
 
+use msf::MasterStability;
+
 use crate::findings::Findings;
 use crate::plan::{Plan, Sweep};
 use crate::simulated::{OverSeeds, Simulated};
@@ -35,6 +37,28 @@ fn figure(plan: &Plan, findings: &Findings) -> Figure {
         (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
         _ => sweep(plan, findings),
     }
+}
+
+/// The files of the figure of a curve alone, or why there is none.
+pub fn curve_alone(
+    title: &str,
+    msf: &MasterStability,
+) -> Vec<(&'static str, std::result::Result<Vec<u8>, String>)> {
+    let content = Content::Lines(self::msf(msf));
+    let panel = Panel { letter: String::new(), rows: 0..1, columns: 0..1, content };
+    let figure = Figure {
+        title: title.to_owned(),
+        width_mm: 100.0,
+        height_mm: 75.0,
+        columns: vec![1.0],
+        rows: vec![1.0],
+        panels: vec![panel],
+    };
+    let svg = figure.drawn().map(|drawn| drawn.svg).map_err(|error| error.to_string());
+    let png = svg
+        .clone()
+        .and_then(|svg| figures::png(&svg, DOTS_PER_INCH).map_err(|error| error.to_string()));
+    vec![("figure.svg", svg.map(String::into_bytes)), ("figure.png", png)]
 }
 
 /// The network above Λ(σ) at the left; at the right the sweep or, without one, the predicted states.
@@ -62,7 +86,7 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
         panels.push(Panel { letter: letter(2), rows: 0..2, columns: 1..2, content });
         columns.push(1.7);
     }
-    panels.push(left(1, panels.len() + 1, Content::Lines(msf(findings))));
+    panels.push(left(1, panels.len() + 1, Content::Lines(msf(&findings.msf))));
     Figure {
         title: plan.experiment.title.clone(),
         width_mm: if columns.len() > 1 { 170.0 } else { 75.0 },
@@ -130,8 +154,7 @@ fn network(plan: &Plan, clusters: &[Vec<usize>]) -> NetworkPanel {
     }
 }
 
-fn msf(findings: &Findings) -> LinePanel {
-    let msf = &findings.msf;
+fn msf(msf: &MasterStability) -> LinePanel {
     msf_panel(&MsfCurve {
         sigma: msf.sigma.clone(),
         lambda: msf.lambda.iter().map(|lambda| lambda.mean).collect(),

@@ -13,6 +13,7 @@ mod cli;
 mod closing;
 mod compare;
 mod computed;
+mod curve;
 mod doubts;
 mod drawing;
 mod files;
@@ -22,6 +23,7 @@ mod list;
 mod load;
 mod machine;
 mod membership;
+mod options;
 mod output;
 mod overview;
 mod place;
@@ -50,26 +52,26 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::output::{say, tell};
+use crate::output::{complain, say};
 
 /// The command, from the arguments of the process to its exit status.
 pub fn main() -> ExitCode {
     // A panic is a fault of ours; said like all else, so that it cannot fail for want of a terminal.
-    std::panic::set_hook(Box::new(|panic| tell!("error: a fault of eigensync: {panic}")));
+    std::panic::set_hook(Box::new(|panic| complain!("error: a fault of eigensync: {panic}")));
     let run = |cli| signals::watch().and_then(|()| cli::run(cli));
     let status = match cli::Cli::try_parse() {
         Ok(cli) => match run(cli) {
             Ok(true) => 0,
             Ok(false) => 1,
             Err(problem) => {
-                tell!("error: {problem}");
+                complain!("error: {problem}");
                 2
             }
         },
         Err(answer) => told(&answer),
     };
     if !output::arrived() {
-        tell!("error: standard output cannot be written to, and what was said on it is lost");
+        complain!("error: standard output cannot be written to, and what was said on it is lost");
         return ExitCode::from(2);
     }
     ExitCode::from(status)
@@ -79,7 +81,7 @@ pub fn main() -> ExitCode {
 fn told(answer: &clap::Error) -> u8 {
     let text = answer.render().to_string();
     if answer.use_stderr() {
-        tell!("{}", text.trim_end());
+        complain!("{}", text.trim_end());
     } else {
         say!("{}", text.trim_end());
     }

@@ -19,6 +19,15 @@ macro_rules! tell {
 }
 pub(crate) use tell;
 
+/// `tell!` for errors, which are said in any case.
+macro_rules! complain {
+    ($($text:tt)*) => { $crate::output::error(format_args!($($text)*)) };
+}
+pub(crate) use complain;
+
+/// Whether only errors are wanted on standard error.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
 /// Whether something could not be said on standard output to a reader who is still there.
 static LOST: AtomicBool = AtomicBool::new(false);
 
@@ -37,9 +46,31 @@ pub fn line(text: Arguments<'_>) {
     keep_track(writeln!(std::io::stdout(), "{}", printable(&lines.join("\n"))));
 }
 
-/// Prints a message on standard error; there is nobody to tell if that fails.
-pub fn note(text: Arguments<'_>) {
+/// Prints a document that a program will read, as it is.
+pub fn document(text: &str) {
+    keep_track(writeln!(std::io::stdout(), "{text}"));
+}
+
+/// Prints an error on standard error, also where only these are wanted.
+pub fn error(text: Arguments<'_>) {
     let _ = writeln!(std::io::stderr(), "{}", printable(&readable(&text.to_string())));
+}
+
+/// Prints a message on standard error, unless only errors are wanted; there is nobody to tell if that fails.
+pub fn note(text: Arguments<'_>) {
+    if !is_quiet() {
+        error(text);
+    }
+}
+
+/// From now on says only errors on standard error, and shows no progress.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether only errors are wanted on standard error.
+pub fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
 }
 
 /// Whether all that was said on standard output has arrived, or its reader has gone.

@@ -33,8 +33,8 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("network", network(plan));
     line("modes", modes(findings));
     line("lambda", lambda(findings));
-    line("isolated", isolated(findings));
-    line("stable for", stable(findings));
+    line("isolated", isolated(&findings.msf));
+    line("stable for", stable(&findings.msf));
     line("verdict", findings.synchrony.verdict.clone());
     line("", String::new());
     text.push_str(&cascade(plan, findings));
@@ -88,12 +88,12 @@ fn lambda(findings: &Findings) -> String {
 }
 
 /// Λ(0) and what it says.
-fn isolated(findings: &Findings) -> String {
-    let isolated = findings.msf.isolated;
-    let says = match findings.msf.state {
+pub fn isolated(msf: &MasterStability) -> String {
+    let isolated = msf.isolated;
+    let says = match msf.state {
         Isolated::Chaotic => "chaotic".to_owned(),
         Isolated::Periodic => "periodic, 0 within its errors".to_owned(),
-        Isolated::AtRest => match findings.msf.rests.len() {
+        Isolated::AtRest => match msf.rests.len() {
             0 | 1 => "at rest, nodes become equal without coupling".to_owned(),
             several => format!(
                 "at rest in {several} different states, nodes in the same one become equal without \
@@ -104,8 +104,8 @@ fn isolated(findings: &Findings) -> String {
     format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
 }
 
-fn stable(findings: &Findings) -> String {
-    let MasterStability { stable, sigma, .. } = &findings.msf;
+/// The stable set, and what was looked at.
+pub fn stable(MasterStability { stable, sigma, .. }: &MasterStability) -> String {
     if stable.intervals.is_empty() {
         return format!("none of {}: nothing is predicted to synchronise", looked(sigma));
     }

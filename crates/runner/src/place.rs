@@ -31,7 +31,7 @@ pub use folder::Folder;
 pub use found::{Found, aside};
 use lock::Lock;
 pub use name::id;
-pub use standing::{Head, Origin};
+pub use standing::{Head, Origin, STANDARD_INPUT};
 use standing::{Ours, standing};
 
 /// Where files are written, in the hidden folder.

@@ -13,6 +13,7 @@ mod spectrum;
 mod step;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
@@ -34,7 +35,8 @@ use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
-    Bound, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
+    Bound, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, NetworkSpec, SweepSpec,
+    ThresholdSpec,
 };
 use crate::warning::Warning;
 
@@ -50,8 +52,8 @@ pub struct Plan {
     pub id: String,
     /// The file itself.
     pub file: PathBuf,
-    /// The text that is kept with the results, where the file itself is nowhere.
-    pub kept: Option<String>,
+    /// What is kept with the results because it is nowhere else, by name: an experiment file, a network.
+    pub kept: Vec<(String, Arc<[u8]>)>,
     /// The specification as written, for titles, sources and the record.
     pub experiment: Experiment,
     /// The same as a document, defaults left out, for the record.
@@ -153,6 +155,21 @@ pub fn of_text(text: &str, file: &Path, quick: bool, stages: Stages) -> Result<P
     of(crate::load::parse(text, file)?, file, quick, stages)
 }
 
+/// The same where the file of its network was read already, from standard input.
+pub fn of_text_and_network(
+    text: &str,
+    network: Arc<[u8]>,
+    file: &Path,
+    quick: bool,
+    stages: Stages,
+) -> Result<Plan> {
+    let (mut experiment, written) = crate::load::parse(text, file)?;
+    if let NetworkSpec::File(spec) = &mut experiment.network {
+        spec.given = Some(network);
+    }
+    of((experiment, written), file, quick, stages)
+}
+
 fn of(
     (experiment, written): (Experiment, Value),
     file: &Path,
@@ -178,7 +195,7 @@ fn of(
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node.model)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
-        kept: None,
+        kept: Vec::new(),
         shortened,
         network,
         links_hash,

@@ -1,43 +1,39 @@
 //! `eigensync predict NETWORK`: a prediction without an experiment file. The options become the
 //! experiment file that says the same, which is run like any other and kept beside the results.
 
-use std::fmt::Write as _;
+use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use clap::ValueEnum;
-use dynamics::lyapunov::Times;
-use dynamics::{Model, NodeDynamics};
+use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
-use crate::computed::{self, Curves};
+use crate::computed::Curves;
 use crate::journal::Journal;
-use crate::output::{say, shown};
-use crate::place::{self, Place};
-use crate::plan::{self, Node, Plan};
-use crate::problem::{Problem, Result, nearest};
+use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
+use crate::output::{document as print_document, say, shown, tell};
+use crate::place::{self, Place, STANDARD_INPUT};
+use crate::plan::{self, Plan};
+use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::spec::{Format, MatrixKind, ModesSpec};
 use crate::{findings, load, overview, results};
 
-/// Points of the curve Λ(σ).
-const SIGMA_POINTS: i64 = 65;
-/// Times of the first look at Λ, which finds how far the curve must reach.
-const FIRST_LOOK: Times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+/// Longest network from standard input, in bytes.
+const MOST_BYTES: u64 = 1 << 30;
+/// Digits of the SHA-256 of a network without a name that its results are called after.
+const NAME_DIGITS: usize = 8;
 
 /// Options of `eigensync predict`.
 #[derive(clap::Args)]
 pub struct Args {
     /// File of the network: an edge list, or another format told by its ending (.mtx, .graphml, .csv,
-    /// .npy, .npz, .mat, .zip of The Virtual Brain)
+    /// .npy, .npz, .mat, .zip of The Virtual Brain); `-` for standard input, with `--format`
     network: PathBuf,
-    /// Oscillator at every node, with parameters that are not the default ones: `lorenz`,
-    /// `hindmarsh_rose:current=3.1`
-    #[arg(long, value_name = "NAME[:P=X,…]")]
-    oscillator: String,
-    /// Component of the driving node, and the component whose equation it enters: `x:y`
-    #[arg(long, value_name = "FROM:TO")]
-    coupling: String,
+    #[command(flatten)]
+    node: NodeArgs,
     /// Coupling matrix
     #[arg(long, value_enum, default_value_t = MatrixKind::Normalized)]
     matrix: MatrixKind,
@@ -74,6 +70,9 @@ pub struct Args {
     /// Compute all anew: take over nothing of an earlier run that was stopped before its end
     #[arg(long)]
     fresh: bool,
+    /// Print one JSON document, `summary.json`, and nothing else on standard output
+    #[arg(long)]
+    json: bool,
     /// Folder that holds the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
@@ -82,31 +81,89 @@ pub struct Args {
     pub threads: Option<u16>,
 }
 
-/// Predicts, writes the results folder and says in words what was found.
+/// The network of a prediction.
+struct Input {
+    /// As the user names it.
+    named: PathBuf,
+    /// Beside it the experiment file would lie that says the same.
+    file: PathBuf,
+    /// What came from standard input.
+    given: Option<Arc<[u8]>>,
+}
+
+impl Input {
+    fn of(args: &Args) -> Result<Self> {
+        if args.network != Path::new(STANDARD_INPUT) {
+            args.network.metadata().map_err(|error| {
+                Problem::from_error("the network cannot be opened", error).in_file(&args.network)
+            })?;
+            return Ok(Self {
+                named: args.network.clone(),
+                file: args.network.clone(),
+                given: None,
+            });
+        }
+        let Some(format) = args.format else {
+            let message = "the format of a network from standard input must be named";
+            return Err(Problem::new(message).hint("`--format edge_list`, for example"));
+        };
+        let bytes = read_all(std::io::stdin().lock())?;
+        // Two networks must not have one name.
+        let name = format!("stdin-{}.{}", &sum(&bytes)[..NAME_DIGITS], format.ending());
+        Ok(Self { named: STANDARD_INPUT.into(), file: name.into(), given: Some(bytes.into()) })
+    }
+
+    /// The name of the file, as it can stand in an experiment file.
+    fn name(&self) -> Result<&str> {
+        utf8(Path::new(self.file.file_name().unwrap_or_default()))
+    }
+}
+
+/// All of standard input, unless it is longer than any network that can be read.
+fn read_all(source: impl Read) -> Result<Vec<u8>> {
+    let failed = |error| Problem::from_error("standard input cannot be read", error);
+    let mut bytes = Vec::new();
+    source.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let message = format!("standard input has more than {MOST_BYTES} bytes");
+        return Err(Problem::new(message).hint("write it to a file, and name that"));
+    }
+    Ok(bytes)
+}
+
+/// Predicts, writes the results folder and says what was found.
 pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
-    // As if the file lay beside the network, whose name the results have.
-    let file = args.network.with_extension("toml");
-    let id = place::id(&args.network)?;
+    let input = Input::of(args)?;
+    let id = place::id(&input.file)?;
     let stages = Stages::new(&id);
-    let document = experiment(args)?;
-    let made_from = ("predict", &*args.network);
+    let document = experiment(args, &input)?;
+    let made_from = ("predict", &*input.named);
     let place = Place::reserve(&args.results, &id, made_from, args.quick)?;
     let journal = Journal::open(place.unfinished(), &id, args.fresh)?;
     let origin = place.origin().clone();
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
     let (plan, found, place) = journal.until(|| {
-        let plan = plan(args, document, &file, (&origin.file, stages, &journal))?;
+        let plan = plan(args, document, &input, (&origin.file, stages, &journal))?;
         let found = findings::find(&plan, &mut Curves::default(), &journal)
-            .map_err(|problem| problem.renamed(&file, &args.network))?;
+            .map_err(|problem| problem.renamed(&plan.file, &input.named))?;
         let place = place.take().expect("results are written once");
         let took = || started.elapsed();
         let written = results::write(&plan, &found, Vec::new(), None, took, place)?;
         Ok((plan, found, written.place))
     })?;
+    let (folder, seconds) = (shown(&place), started.elapsed().as_secs_f64());
+    if args.json {
+        let path = place.join("summary.json");
+        let summary = std::fs::read_to_string(&path)
+            .map_err(|error| Problem::from_error("cannot be read again", error).in_file(&path))?;
+        print_document(summary.trim_end());
+        tell!("results in {folder}, in {seconds:.1} s");
+        return Ok(());
+    }
     say!("{}\n{}", overview::of(&plan, &found), overview::cost(&plan));
-    say!("\nresults in {}, in {:.1} s", shown(&place), started.elapsed().as_secs_f64());
+    say!("\nresults in {folder}, in {seconds:.1} s");
     say!("the same as an experiment file: {}", shown(place.join(results::EXPERIMENT)));
     Ok(())
 }
@@ -115,18 +172,29 @@ pub fn run(args: &Args) -> Result<()> {
 fn plan(
     args: &Args,
     mut document: Table,
-    file: &Path,
+    input: &Input,
     (origin, stages, journal): (&Path, Stages, &Journal),
 ) -> Result<Plan> {
+    let file = input.file.with_extension("toml");
     let sigma = table([
         ("from", 0.0.into()),
-        ("to", reach(args, &stages, journal)?.into()),
+        ("to", args.node.reach(&stages, journal)?.into()),
         ("points", SIGMA_POINTS.into()),
     ]);
     document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
-    let mut plan = plan::of_text(&text(&document)?, file, args.quick, stages)
-        .map_err(|problem| problem.renamed(file, &args.network))?;
-    keep(&mut plan, document, origin)?;
+    let asked = text(&document)?;
+    let plan = match &input.given {
+        None => plan::of_text(&asked, &file, args.quick, stages),
+        Some(bytes) => plan::of_text_and_network(&asked, bytes.clone(), &file, args.quick, stages),
+    };
+    let mut plan = plan.map_err(|problem| problem.renamed(&file, &input.named))?;
+    match &input.given {
+        None => keep(&mut plan, document, origin)?,
+        Some(bytes) => {
+            keep(&mut plan, document, &input.file)?;
+            plan.kept.push((input.name()?.to_owned(), bytes.clone()));
+        }
+    }
     Ok(plan)
 }
 
@@ -160,13 +228,8 @@ fn keep(plan: &mut Plan, mut document: Table, network: &Path) -> Result<()> {
     document["network"]["file"]["path"] = utf8(network)?.into();
     let text = text(&document)?;
     plan.written = load::parse(&text, Path::new(results::EXPERIMENT))?.1;
-    plan.kept = Some(text);
+    plan.kept = vec![(results::EXPERIMENT.to_owned(), text.into_bytes().into())];
     Ok(())
-}
-
-fn text(document: &Table) -> Result<String> {
-    toml::to_string_pretty(document)
-        .map_err(|error| Problem::from_error("the options cannot be written as TOML", error))
 }
 
 /// A path as it can stand in an experiment file.
@@ -175,14 +238,9 @@ fn utf8(path: &Path) -> Result<&str> {
 }
 
 /// The experiment file beside the network that says what the options say, but for the curve.
-fn experiment(args: &Args) -> Result<Table> {
-    args.network.metadata().map_err(|error| {
-        Problem::from_error("the network cannot be opened", error).in_file(&args.network)
-    })?;
-    let name_of_file = utf8(Path::new(args.network.file_name().unwrap_or_default()))?;
-    let (oscillator, model) = oscillator(&args.oscillator)?;
-    let (from, to) = components_coupled(args)?;
-    coupling(model, (from, to))?;
+fn experiment(args: &Args, input: &Input) -> Result<Table> {
+    let name_of_file = input.name()?;
+    let (oscillator, [from, to]) = args.node.tables()?;
     let mut document = toml! {
         seed = 1
     };
@@ -210,47 +268,9 @@ fn experiment(args: &Args) -> Result<Table> {
     Ok(document)
 }
 
-fn table<const N: usize>(entries: [(&str, Value); N]) -> Value {
-    Value::Table(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
-}
-
 /// The name of a choice in experiment files, which is that on the command line.
 fn name(choice: &impl ValueEnum) -> String {
     choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
-}
-
-/// `NAME` or `NAME:PARAMETER=VALUE,…` as the table `[oscillator.NAME]`.
-fn oscillator(text: &str) -> Result<(Value, Model)> {
-    let (name, parameters) = text.split_once(':').unwrap_or((text, ""));
-    let known: Vec<&str> = Model::all().iter().map(Model::name).collect();
-    if !known.contains(&name) {
-        let hint = match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        return Err(Problem::new(format!("there is no oscillator `{name}`")).hint(hint));
-    }
-    let mut values = Table::new();
-    for entry in parameters.split(',').filter(|entry| !entry.is_empty()) {
-        let value = entry.split_once('=').and_then(|(key, value)| {
-            let value = value.trim().parse::<f64>().ok()?;
-            Some((key.trim().to_owned(), value))
-        });
-        // With larger ones orbits leave the bounds within which they count as finite.
-        let Some((key, value)) = value.filter(|(_, value)| value.abs() <= 1e6) else {
-            let message = format!(
-                "`--oscillator {text}`: `{entry}` is no parameter, expected one such as r=35, of a \
-                 size up to 1e6"
-            );
-            return Err(Problem::new(message));
-        };
-        values.insert(key, value.into());
-    }
-    let value = table([(name, values.into())]);
-    let model = value.clone().try_into().map_err(|error: toml::de::Error| {
-        Problem::new(format!("`--oscillator {text}`: {}", error.message().trim_end()))
-    })?;
-    Ok((value, model))
 }
 
 /// `STEP`, `STEP=HOW` or `STEP=NUMBER` as an entry of `prepare`.
@@ -264,59 +284,17 @@ fn preparation(step: &str) -> Result<Value> {
     })
 }
 
-fn components(model: Model) -> String {
-    format!("`{}` has components {}", model.name(), model.components().join(", "))
-}
-
-/// The components that `--coupling` names.
-fn components_coupled(args: &Args) -> Result<(&str, &str)> {
-    args.coupling.split_once(':').ok_or_else(|| {
-        let message = format!("`--coupling {}` must be two components, such as x:y", args.coupling);
-        let hint =
-            oscillator(&args.oscillator).map_or_else(|_| String::new(), |(_, m)| components(m));
-        Problem::new(message).hint(hint)
-    })
-}
-
-fn coupling(model: Model, (from, to): (&str, &str)) -> Result<dynamics::Coupling> {
-    let component = |name: &str| {
-        model.components().iter().position(|known| *known == name).ok_or_else(|| {
-            Problem::new(format!("`--coupling` names the component \"{name}\""))
-                .hint(components(model))
-        })
-    };
-    Ok(dynamics::Coupling::pair(component(from)?, component(to)?))
-}
-
-/// How far the curve of Λ must reach.
-fn reach(args: &Args, stages: &Stages, journal: &Journal) -> Result<f64> {
-    let (_, model) = oscillator(&args.oscillator)?;
-    let node = Node { model, coupling: coupling(model, components_coupled(args)?)? };
-    computed::reach(&node, &FIRST_LOOK, stages, journal)
-        .map_err(|error| Problem::from_error("the master stability function", error))
-}
-
 /// The format that was asked for, or that the name of the file tells.
 fn format(args: &Args) -> Result<Format> {
-    if let Some(format) = args.format {
-        return Ok(format);
-    }
-    let ending = args.network.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    Ok(match &ending[..] {
-        "mtx" => Format::MatrixMarket,
-        "graphml" | "xml" => Format::Graphml,
-        "csv" | "dat" => Format::Dense,
-        "npy" => Format::Npy,
-        "npz" => Format::Npz,
-        "mat" => Format::Matlab,
-        "zip" => Format::Tvb,
-        "edges" | "edgelist" | "el" | "txt" | "tsv" | "" => Format::EdgeList,
-        _ => {
-            let mut message = String::from("has an ending that tells no format");
-            write!(message, ", \".{ending}\"").expect("a string takes every text");
-            return Err(Problem::new(message)
-                .in_file(&args.network)
-                .hint("name it: `--format edge_list`, for example"));
-        }
+    args.format.or_else(|| Format::of_ending(&args.network)).ok_or_else(|| {
+        let ending = args.network.extension().unwrap_or_default().to_string_lossy();
+        Problem::new(format!("has an ending that tells no format, \".{ending}\""))
+            .in_file(&args.network)
+            .hint("name it: `--format edge_list`, for example")
     })
+}
+
+/// SHA-256 as text.
+fn sum(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -6,9 +6,9 @@ use std::io::{Read, Seek, SeekFrom};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::output::printable;
+use crate::output::{is_quiet, printable};
 
 /// The bar on the terminal, for whoever has to clear it from another thread.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
@@ -155,6 +155,9 @@ impl Stages {
 
     fn bar(&self, stage: &str, template: &str, steps: Option<u64>) -> ProgressBar {
         let bar = steps.map_or_else(ProgressBar::new_spinner, ProgressBar::new);
+        if is_quiet() {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
         let style = ProgressStyle::with_template(template).expect("the template is a constant");
         bar.set_style(style.progress_chars("=> "));
         let suite = SUITE.lock().unwrap_or_else(PoisonError::into_inner).clone();

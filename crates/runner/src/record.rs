@@ -1,12 +1,12 @@
 //! `summary.json`: a run in numbers. `record/states` has the predicted states.
 
-mod parameters;
+pub mod parameters;
 mod states;
 
 use std::time::Duration;
 
 use dynamics::{Estimate, Outcome, Run};
-use msf::{Attractor, End, StableRegion, Zero};
+use msf::{Attractor, End, MasterStability, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -313,7 +313,7 @@ pub fn summarise(
             cutoff: spectrum.cutoff,
             verified: verified(spectrum.verification),
         },
-        msf: msf_record(findings),
+        msf: msf_record(&findings.msf),
         critical_couplings: critical_records(findings),
         global_synchrony: findings.synchrony.clone(),
         cascade: states::records(plan, findings),
@@ -351,8 +351,8 @@ fn step_records(plan: &Plan) -> Vec<StepRecord> {
     plan.experiment.prepare.iter().zip(&plan.preparation).map(record).collect()
 }
 
-fn msf_record(findings: &Findings) -> MsfRecord {
-    let msf = &findings.msf;
+/// A curve in numbers.
+pub fn msf_record(msf: &MasterStability) -> MsfRecord {
     let sigma_c = msf.stable.sigma_c();
     MsfRecord {
         lyapunov_isolated: msf.isolated.mean,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use dynamics::{Errors, Estimate};
+use msf::MasterStability;
 use serde_json::Value;
 
 use crate::cascade_files;
@@ -56,8 +57,8 @@ pub fn write(
             warnings.add("figure", problem.to_string());
         }
     }
-    if let Some(text) = &plan.kept {
-        folder.write(EXPERIMENT, text)?;
+    for (name, content) in &plan.kept {
+        folder.write(name, content)?;
     }
     let mut summary = summarise(plan, findings, claims, (took(), &stages.took()), place.origin());
     summary.warnings.extend(warnings.into_list());
@@ -80,7 +81,7 @@ pub fn write(
 
 fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
     write_spectrum(folder, plan, findings)?;
-    write_msf(folder, findings)?;
+    write_msf(folder, &findings.msf)?;
     cascade_files::write(folder, plan, findings)?;
     membership::write(folder, plan, findings)?;
     if let Some(simulated) = &findings.simulated {
@@ -110,8 +111,8 @@ fn write_spectrum(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<(
     folder.write_table("eigenvectors.csv", &header, rows)
 }
 
-fn write_msf(folder: &Folder, findings: &Findings) -> Result<()> {
-    let msf = &findings.msf;
+/// Λ(σ) on the grid.
+pub fn write_msf(folder: &Folder, msf: &MasterStability) -> Result<()> {
     let header = ["sigma", "Lambda", "standard_error"].map(str::to_owned);
     let rows = msf.sigma.iter().zip(&msf.lambda).map(|(sigma, lambda)| {
         vec![number(*sigma), number(lambda.mean), number(lambda.standard_error)]

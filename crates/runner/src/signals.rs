@@ -16,7 +16,7 @@ use signal_hook::iterator::Signals;
 use signal_hook::low_level::exit;
 
 use crate::journal::Journal;
-use crate::output::tell;
+use crate::output::complain;
 use crate::problem::{Problem, Result};
 use crate::progress;
 
@@ -116,9 +116,9 @@ fn farewell(signal: i32) {
     match journal {
         Some(journal) => {
             journal.flush();
-            tell!("stopped by {name}: {}", journal.what_is_kept());
+            complain!("stopped by {name}: {}", journal.what_is_kept());
         }
-        None => tell!("stopped by {name}"),
+        None => complain!("stopped by {name}"),
     }
 }
 

@@ -16,6 +16,9 @@ use crate::problem::{Problem, Result};
 /// The file that makes a folder one of results.
 pub const SUMMARY: &str = "summary.json";
 
+/// What stands for standard input where a file is named.
+pub const STANDARD_INPUT: &str = "-";
+
 /// What a summary says of itself, without its numbers.
 #[derive(Deserialize)]
 pub struct Head {
@@ -42,9 +45,10 @@ pub struct Provenance {
 /// What results were made from.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Origin {
-    /// `run` or `predict`.
+    /// `run`, `predict` or `msf`.
     pub command: String,
-    /// The experiment or the network, as seen from the results folder.
+    /// The experiment or the network, as seen from the results folder; `-` for a network from standard
+    /// input, empty where there is none.
     pub file: PathBuf,
 }
 
@@ -106,8 +110,12 @@ impl Origin {
         };
         let parent = place.parent().filter(|path| !path.as_os_str().is_empty());
         let folder = whole(parent.unwrap_or(Path::new(".")))?;
+        let command = command.to_owned();
+        if is_no_file(file) {
+            return Ok(Self { command, file: file.to_owned() });
+        }
         let file = relative(&whole(file)?, &folder.join(place.file_name().unwrap_or_default()));
-        Ok(Self { command: command.to_owned(), file })
+        Ok(Self { command, file })
     }
 
     /// Whether results beside a place that were made from this would be made again from the other: it
@@ -120,6 +128,10 @@ impl Origin {
 
     /// In words for the terminal.
     pub fn shown(&self, place: &Path) -> String {
+        if is_no_file(&self.file) {
+            let command = format!("eigensync {} {}", self.command, shown(&self.file));
+            return format!("`{}`", command.trim_end());
+        }
         let path = self.path(place);
         let path = path.canonicalize().unwrap_or(path);
         format!("`eigensync {} {}`", self.command, shown(&path))
@@ -130,6 +142,11 @@ impl Origin {
         let results = place.parent().unwrap_or(Path::new(""));
         results.join(self.file.strip_prefix("..").unwrap_or(&self.file))
     }
+}
+
+/// Whether results are made from options alone, or from standard input.
+fn is_no_file(file: &Path) -> bool {
+    file.as_os_str().is_empty() || file == Path::new(STANDARD_INPUT)
 }
 
 impl Ours {

@@ -74,15 +74,15 @@ impl Checker<'_> {
     fn of_file(&self) -> Result<()> {
         let NetworkSpec::File(spec) = &self.experiment.network else { return Ok(()) };
         let table = "network.file";
-        if !matches!(spec.format, Format::Npz | Format::Matlab) {
+        if !matches!(spec.format(), Format::Npz | Format::Matlab) {
             let reason = "files of this format hold one network; those of npz and matlab may hold \
                           several matrices";
             self.without_effect(table, "variable", reason)?;
         }
-        if !matches!(spec.format, Format::Graphml) {
+        if !matches!(spec.format(), Format::Graphml) {
             self.without_effect(table, "attributes", "only files of graphml have attributes")?;
         }
-        if matches!(spec.format, Format::EdgeList | Format::Graphml) {
+        if matches!(spec.format(), Format::EdgeList | Format::Graphml) {
             let reason = "files of this format hold links, not the rows and columns of a matrix";
             self.without_effect(table, "block", reason)?;
             self.without_effect(table, "rows", reason)?;

@@ -54,6 +54,11 @@ struct Part {
 }
 
 impl Memory {
+    /// Bytes of all parts together.
+    pub fn bytes(&self) -> u64 {
+        self.total() as u64
+    }
+
     /// Of all that a plan does.
     pub fn of(plan: &Plan) -> Self {
         let (n, links) = (plan.network.n_nodes() as f64, plan.network.n_links() as f64);

@@ -94,9 +94,14 @@ impl Checker<'_> {
 
     fn file(&self, spec: &FileSpec) -> Result<RawNetwork> {
         let key = "network.file.path";
+        if let Some(bytes) = &spec.given {
+            self.readable(key, bytes.len() as u64)?;
+            let source = std::io::Cursor::new(bytes);
+            return self.stages.unmeasured("reading", || self.read(spec, &spec.path, source));
+        }
         let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
         let n_bytes = source.metadata().map_or(0, |metadata| metadata.len());
-        if matches!(spec.format, Format::EdgeList | Format::MatrixMarket | Format::Graphml) {
+        if matches!(spec.format(), Format::EdgeList | Format::MatrixMarket | Format::Graphml) {
             self.readable(key, n_bytes)?;
         }
         self.stages.measured("reading", n_bytes, |progress| {
@@ -111,7 +116,7 @@ impl Checker<'_> {
         let failed = |error: &dyn std::fmt::Display| {
             self.problem(key, format!("names {}: {error}", shown(path)))
         };
-        match spec.format {
+        match spec.format() {
             Format::EdgeList => {
                 formats::edge_list::read(source).map(RawNetwork::from).map_err(|e| failed(&e))
             }

@@ -5,6 +5,7 @@ use dynamics::NodeDynamics;
 use serde_json::{Value, json};
 
 use crate::plan::Plan;
+use crate::spec::NetworkSpec;
 
 /// The resolved experiment; keys that have no effect in it are null.
 pub fn of(plan: &Plan) -> Value {
@@ -16,6 +17,9 @@ pub fn of(plan: &Plan) -> Value {
             table[key] = value;
         }
     };
+    if let NetworkSpec::File(spec) = &plan.experiment.network {
+        set("/network/file/format", json!(spec.format()));
+    }
     set("/spectrum/modes", json!(plan.spectrum.wanted()));
     set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
     set("/msf/transient", json!(plan.msf.times.transient));

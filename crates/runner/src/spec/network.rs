@@ -1,7 +1,8 @@
 //! `[network.…]`, `prepare`, `[groups.…]` and `[regions]`: where the network comes from, what is made
 //! of it before it is used, and how its nodes belong together.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
@@ -26,8 +27,11 @@ pub enum NetworkSpec {
 pub struct FileSpec {
     /// Relative to the experiment file.
     pub path: PathBuf,
-    #[serde(default)]
-    pub format: Format,
+    /// Told by the ending of the path where it is left out.
+    pub format: Option<Format>,
+    /// What the file holds, where it is none but came from standard input.
+    #[serde(skip)]
+    pub given: Option<Arc<[u8]>>,
     /// Which matrix of a file that holds several.
     pub variable: Option<String>,
     /// Which attributes of a GraphML file are what.
@@ -41,6 +45,45 @@ pub struct FileSpec {
     /// The command that brings the file where it may not be shipped: without the file the experiment
     /// is left out, with a notice, instead of refused.
     pub fetched_by: Option<String>,
+}
+
+impl FileSpec {
+    /// The format that is named or that the ending tells; an edge list where it tells none.
+    pub fn format(&self) -> Format {
+        self.format.or_else(|| Format::of_ending(&self.path)).unwrap_or_default()
+    }
+}
+
+impl Format {
+    /// The format of files that end so, if there is one.
+    pub fn of_ending(path: &Path) -> Option<Self> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        Some(match &ending[..] {
+            "mtx" => Self::MatrixMarket,
+            "graphml" | "xml" => Self::Graphml,
+            "csv" | "dat" => Self::Dense,
+            "npy" => Self::Npy,
+            "npz" => Self::Npz,
+            "mat" => Self::Matlab,
+            "zip" => Self::Tvb,
+            "edges" | "edgelist" | "el" | "txt" | "tsv" | "" => Self::EdgeList,
+            _ => return None,
+        })
+    }
+
+    /// An ending that tells it.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::EdgeList => "edges",
+            Self::MatrixMarket => "mtx",
+            Self::Graphml => "graphml",
+            Self::Dense => "csv",
+            Self::Npy => "npy",
+            Self::Npz => "npz",
+            Self::Matlab => "mat",
+            Self::Tvb => "zip",
+        }
+    }
 }
 
 /// Names of GraphML attributes; those left out are not read.

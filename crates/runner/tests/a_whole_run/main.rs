@@ -3,6 +3,8 @@
 
 mod cascade;
 mod comparison;
+mod curve;
+mod documents;
 mod ending;
 mod faults;
 mod figures;
