@@ -7,7 +7,7 @@ use dynamics::{Coupling, Estimate, InstructionSet, NodeDynamics, Progress};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::step::{Step, is_certain, with_shift};
-use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
+use crate::zeros::{Advance, Finder, Refinement, Signed, Zero, sign};
 use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
@@ -111,12 +111,25 @@ pub fn master_stability(
     request: &Request,
     progress: Progress<'_>,
 ) -> Result<MasterStability, MsfError> {
+    master_stability_with(node, request, progress, &|_| ())
+}
+
+/// The same, telling how far the refinement of each zero has come, which no one knows beforehand.
+///
+/// # Errors
+/// As [`master_stability`].
+pub fn master_stability_with(
+    node: &Node,
+    request: &Request,
+    progress: Progress<'_>,
+    advance: &dyn Fn(Advance),
+) -> Result<MasterStability, MsfError> {
     let ascending = request.sigma.windows(2).all(|pair| pair[0] < pair[1]);
     let from_zero = request.sigma.first().is_some_and(|&sigma| sigma >= 0.0);
     if request.sigma.len() < 2 || !ascending || !from_zero {
         return Err(MsfError::BadGrid);
     }
-    let work = Work { node, request, progress };
+    let work = Work { node, request, progress, advance };
     let mut seeds = Seeds::new(request.seed);
     let (curve, split) = work.curve(&mut seeds)?;
     let mut curve = match split {
@@ -136,6 +149,7 @@ struct Work<'a> {
     node: &'a Node,
     request: &'a Request,
     progress: Progress<'a>,
+    advance: &'a dyn Fn(Advance),
 }
 
 impl Work<'_> {
@@ -192,7 +206,8 @@ impl Work<'_> {
                 sigmas.iter().map(|&sigma| Tangent { sigma, seed: seeds.next() }).collect();
             self.exponents(&tangents, step)
         };
-        let mut finder = Finder { refinement: &self.request.refinement, floor, measure, split };
+        let (refinement, advance) = (&self.request.refinement, self.advance);
+        let mut finder = Finder { refinement, advance, floor, measure, split };
         let positive: Vec<(f64, Estimate)> =
             sigma.iter().copied().zip(lambda.iter().copied()).filter(|p| p.0 > 0.0).collect();
         let certain = finder.settle(&positive)?;

@@ -20,8 +20,10 @@ mod zeros;
 
 pub use attractors::Attractor;
 pub use critical::{CriticalCoupling, critical_couplings};
-pub use curve::{Isolated, MasterStability, Node, Request, master_stability};
+pub use curve::{
+    Isolated, MasterStability, Node, Request, master_stability, master_stability_with,
+};
 pub use error::MsfError;
 pub use reach::reach;
 pub use stable_region::{End, Interval, StableRegion};
-pub use zeros::{Refinement, Zero};
+pub use zeros::{Advance, Refinement, Zero};

@@ -61,6 +61,19 @@ impl Zero {
     }
 }
 
+/// How far the refinement of a zero has come, told after each of its rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advance {
+    /// Where the zero is so far.
+    pub sigma: f64,
+    /// Its standard error so far.
+    pub standard_error: f64,
+    /// The standard error asked for.
+    pub wanted: f64,
+    /// About how many exponents it will still take: an error falls as the root of their number.
+    pub exponents_ahead: usize,
+}
+
 /// How well a zero of Λ must be known.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Refinement {
@@ -102,6 +115,8 @@ pub(crate) struct Found {
 /// for or at half of it, from orbits that are new every time.
 pub(crate) struct Finder<'a, M> {
     pub refinement: &'a Refinement,
+    /// Told how far each zero has come.
+    pub advance: &'a dyn Fn(Advance),
     pub floor: f64,
     pub measure: M,
     /// Where orbits have settled on different attractors.
@@ -220,7 +235,8 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
         let mut best = Zero { sigma, standard_error, falling, refined: false, step_shift: None };
         let mut slope = None;
         let mut window = whole;
-        for _ in rounds..self.refinement.max_rounds.max(rounds + 4) {
+        let most = self.refinement.max_rounds.max(rounds + 4);
+        for round in rounds..most {
             let low = (best.sigma - window).max(from.sigma);
             let high = (best.sigma + window).min(to.sigma);
             let sigmas: Vec<f64> = (0..PER_ROUND)
@@ -250,6 +266,13 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             if best.refined {
                 break;
             }
+            let [spent, left] = [round + 1 - rounds, most - round - 1];
+            (self.advance)(Advance {
+                sigma: best.sigma,
+                standard_error: best.standard_error,
+                wanted: target,
+                exponents_ahead: ahead(best.standard_error / target, spent, left) * PER_ROUND,
+            });
             // Where bending is what is left, the window may shrink to where noise sets the slope.
             let least = if bend > 0.5 * target { 0.5 * WINDOW * noise } else { narrow };
             window = window.min((0.25 * window).max(least));
@@ -271,6 +294,13 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
         let (refined, step_shift) = (zero.refined && is_good, Some(shift));
         Ok(Zero { standard_error, refined, step_shift, ..zero })
     }
+}
+
+/// About how many rounds follow those that were spent, where the error is so many times what is asked.
+fn ahead(times: f64, spent: usize, left: usize) -> usize {
+    let rounds = (spent as f64 * (times * times - 1.0)).ceil();
+    // A window that is still too wide takes another round in any case.
+    (rounds.clamp(1.0, left.max(1) as f64)) as usize
 }
 
 fn mean_of(exponents: &[Estimate]) -> Estimate {
@@ -319,7 +349,9 @@ mod tests {
             let grid = self.exponents(&sigma);
             let grid: Vec<_> = sigma.into_iter().zip(grid).collect();
             let measure = |sigmas: &[f64], _| Ok(self.exponents(sigmas));
-            let mut finder = Finder { refinement: &refinement, floor: 0.0, measure, split: None };
+            let advance: &dyn Fn(Advance) = &|_| ();
+            let mut finder =
+                Finder { refinement: &refinement, advance, floor: 0.0, measure, split: None };
             let signs = finder.settle(&grid).unwrap();
             let found = finder.zeros(&signs).unwrap();
             assert_eq!(found.split, None);
@@ -375,6 +407,12 @@ mod tests {
             noisy.calls
         };
         assert!(cost(0.1) > 2 * cost(0.01), "{} against {}", cost(0.1), cost(0.01));
+    }
+
+    #[test]
+    fn what_a_refinement_still_takes_follows_the_root_of_the_number_of_exponents() {
+        assert_eq!(ahead(2.0, 3, 20), 9, "half the error takes four times as many in all");
+        assert_eq!([ahead(0.5, 3, 20), ahead(100.0, 3, 20)], [1, 20]);
     }
 
     #[test]

@@ -13,7 +13,8 @@ use spectra::Spectrum;
 use crate::journal::{Journal, Key, Kind, is_worth_keeping};
 use crate::plan::{Node, Plan};
 use crate::problem::{Problem, Result, plain};
-use crate::progress::Stages;
+use crate::progress::{Ahead, Stages};
+use crate::table::{four_digits, two_digits};
 
 pub use sweep::{effects_of_step, simulate};
 
@@ -32,10 +33,14 @@ impl Curves {
         let is_known = known.is_some();
         let key = Key::of(Kind::Curve, &(&plan.node, &plan.msf));
         let curve = journal.once((Kind::Curve, key), || {
-            let compute = |progress: dynamics::Progress<'_>| {
-                msf::master_stability(&plan.node.equations(), &plan.msf, progress)
+            let compute = |progress: dynamics::Progress<'_>, ahead: Ahead<'_>| {
+                let steps = plan.msf.times.steps();
+                let advance = |zero: msf::Advance| {
+                    ahead(zero.exponents_ahead as u64 * steps, &refined(zero));
+                };
+                msf::master_stability_with(&plan.node.equations(), &plan.msf, progress, &advance)
             };
-            known.map_or_else(|| plan.stages.measured("msf", plan.msf_steps(), compute), Ok)
+            known.map_or_else(|| plan.stages.extended("msf", plan.msf_steps(), compute), Ok)
         });
         let curve = curve.map_err(|error| msf_problem(plan, &error))?;
         refuse_overflow(plan, &curve)?;
@@ -85,6 +90,12 @@ pub fn spectrum(plan: &Plan, request: &spectra::Request, journal: &Journal) -> R
 /// What the coupling matrix of a plan is known by.
 fn matrix(plan: &Plan) -> (&str, usize, u8) {
     (&plan.links_hash, plan.network.n_nodes(), plan.experiment.coupling.matrix as u8)
+}
+
+/// How far the refinement of a zero has come.
+fn refined(zero: msf::Advance) -> String {
+    let [sigma, wanted] = [four_digits(zero.sigma), two_digits(zero.wanted)];
+    format!("zero at sigma = {sigma} ± {}, asked ± {wanted}", two_digits(zero.standard_error))
 }
 
 fn advanced(advance: spectra::Advance) -> String {

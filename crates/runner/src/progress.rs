@@ -69,6 +69,9 @@ impl Suite {
     }
 }
 
+/// Takes how many steps are still ahead, and words that say why.
+pub type Ahead<'a> = &'a dyn Fn(u64, &str);
+
 /// Shows the stages of one experiment.
 #[derive(Default)]
 pub struct Stages {
@@ -117,6 +120,26 @@ impl Stages {
         self.resumed(stage, steps, 0, work)
     }
 
+    /// The same where it turns out on the way how many steps are ahead: it says so, and in words why.
+    pub fn extended<T>(
+        &self,
+        stage: &str,
+        steps: u64,
+        work: impl FnOnce(dynamics::Progress<'_>, Ahead<'_>) -> T,
+    ) -> T {
+        let template =
+            "{prefix} [{bar:30}] {percent:>3} %  {elapsed} so far, about {eta} left  {msg}";
+        let bar = self.bar(stage, template, Some(steps));
+        let report = |done| advance(&bar, done);
+        let ahead = |steps: u64, words: &str| {
+            bar.set_length(bar.position() + steps);
+            bar.set_message(words.to_owned());
+        };
+        let result = self.timed(stage, || work(&report, &ahead));
+        bar.finish_and_clear();
+        result
+    }
+
     /// The same where some of the steps were done by an earlier run.
     pub fn resumed<T>(
         &self,
@@ -129,13 +152,7 @@ impl Stages {
         let bar = self.bar(stage, template, Some(steps));
         bar.set_position(done);
         bar.reset_eta();
-        let report = |done| {
-            // A stage that turns out longer than planned stretches its bar.
-            if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
-                bar.inc_length(done);
-            }
-            bar.inc(done);
-        };
+        let report = |done| advance(&bar, done);
         let result = self.timed(stage, || work(&report));
         bar.finish_and_clear();
         result
@@ -166,6 +183,14 @@ impl Stages {
         *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
         bar
     }
+}
+
+/// Steps that were done. A stage that turns out longer than planned stretches its bar.
+fn advance(bar: &ProgressBar, done: u64) {
+    if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
+        bar.inc_length(done);
+    }
+    bar.inc(done);
 }
 
 /// A source that reports the bytes taken from it.
