@@ -1,53 +1,31 @@
 //! Leading eigenvalues, eigenvectors and eigenspaces of a coupling matrix, with none lost.
 //!
-//! W v_k = λ_k v_k with λ_1 ≥ λ_2 ≥ …. Both solvers work on the symmetric matrix S similar to W and
+//! W v_k = λ_k v_k with λ_1 ≥ λ_2 ≥ …. All solvers work on the symmetric matrix S similar to W and
 //! take its eigenvectors u to node space by v = D^{-1/2} u; see [`graph::CouplingMatrix`].
 //!
 //! Entry: [`leading_modes`]. Knows nothing of what the modes are for.
 
-mod arpack;
-mod basis;
-mod block;
-mod chebyshev;
-mod completeness;
-mod davidson;
-mod dense;
-mod dissection;
-mod eigenspace;
 mod error;
-mod expansion;
-mod factorisation;
-mod inertia;
-mod inverse;
-mod iterative;
-mod kernel;
-mod krylov;
-mod lanczos;
-mod long_sequence;
-mod look;
-mod node_space;
-mod operator;
-mod orthonormal;
-mod pace;
-mod probing;
-mod product;
 mod progress;
-mod projected;
-mod random;
 mod request;
-mod ritz;
-mod separator;
-mod slow_modes;
-mod smallest;
 mod spectrum;
+
+mod completeness;
+mod factorisation;
+mod found;
+mod matrix;
+mod modes;
+mod plan;
+mod recurrences;
+mod smallest_eigenvalue;
+mod solvers;
 mod subspace;
-mod verification;
-mod wanted;
+mod vectors;
 
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
-pub use smallest::smallest_eigenvalue;
+pub use smallest_eigenvalue::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 
@@ -89,11 +67,6 @@ pub fn leading_modes_with(
     progress: Progress<'_>,
 ) -> Result<Spectrum, SpectraError> {
     let plan = request.resolve(w)?;
-    let (found, solver, verification) = match plan.choice {
-        SolverChoice::Dense => {
-            (dense::leading(w.symmetric(), &plan)?, Solver::Dense, Verification::Dense)
-        }
-        _ => iterative::leading(w, &plan, progress)?,
-    };
-    node_space::spectrum(w, found, &plan, (solver, verification))
+    let (found, solver, verification) = solvers::leading(w, &plan, progress)?;
+    modes::node_space::spectrum(w, found, &plan, (solver, verification))
 }
