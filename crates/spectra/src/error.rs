@@ -55,6 +55,12 @@ pub enum SpectraError {
         /// The shift μ.
         shift: f64,
     },
+    /// ARPACK was asked for in a build without it.
+    #[error(
+        "ARPACK was asked for, but this build is without it; build with the feature `arpack` of \
+         `spectra`, or leave the choice of the solver free"
+    )]
+    ArpackNotBuilt,
     /// ARPACK cannot find all modes.
     #[error(
         "{requested} modes of a network of {n_nodes} nodes were asked of ARPACK, which finds at \

@@ -49,7 +49,7 @@ use graph::CouplingMatrix;
 ///
 /// # Errors
 /// [`SpectraError::NoModes`], [`SpectraError::TooManyModes`], [`SpectraError::BadTolerance`],
-/// [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
+/// [`SpectraError::ArpackNotBuilt`], [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
 /// met; [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
 /// allowed does not suffice.

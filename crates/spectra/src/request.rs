@@ -28,12 +28,19 @@ pub enum SolverChoice {
     Auto,
     /// The dense solver: N² memory, N³ time.
     Dense,
-    /// ARPACK: at most N − 1 modes.
+    /// ARPACK: at most N − 1 modes; only where the crate was built with its feature `arpack`.
     Arpack,
     /// Long Lanczos sequences, and blocks with Chebyshev filters, for any network.
     Chebyshev,
     /// The block method on a factorised μ − S; refused where the factor would be too large.
     ShiftInvert,
+}
+
+impl SolverChoice {
+    /// Whether this build has the solver: ARPACK's is a feature of the crate.
+    pub const fn is_built(self) -> bool {
+        !matches!(self, Self::Arpack) || cfg!(feature = "arpack")
+    }
 }
 
 /// A request for the leading modes of a coupling matrix.

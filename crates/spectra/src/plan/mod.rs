@@ -87,6 +87,7 @@ impl Request {
     fn choice(&self, wanted: Wanted, n_nodes: usize) -> Result<SolverChoice, SpectraError> {
         let requested = wanted.at_least();
         match self.solver {
+            choice if !choice.is_built() => Err(SpectraError::ArpackNotBuilt),
             SolverChoice::Arpack if requested == n_nodes => {
                 Err(SpectraError::BeyondArpack { requested, n_nodes })
             }

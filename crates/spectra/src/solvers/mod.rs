@@ -6,6 +6,7 @@
 //! to ARPACK, where it costs a fraction of a second, and large ones to blocks and filters, which take
 //! half of its time or less.
 
+#[cfg(feature = "arpack")]
 pub(crate) mod arpack;
 pub(crate) mod chebyshev_davidson;
 pub(crate) mod dense;
@@ -73,6 +74,9 @@ fn by_iteration(
     let solver = choose(w, plan, symbolic.as_ref())?;
     let mut random = Random::new(plan.seed);
     let (found, verification) = match (solver, &symbolic) {
+        #[cfg(not(feature = "arpack"))]
+        (Solver::Arpack, _) => unreachable!("a plan never asks for what was not built"),
+        #[cfg(feature = "arpack")]
         (Solver::Arpack, _) => {
             verifier.low = SpectralDensity::new(&links, plan.scale, &mut random)?.low;
             arpack::leading(w, plan, &verifier, random)?
@@ -128,8 +132,10 @@ fn choose(
     }
 }
 
-/// The solver that only multiplies: ARPACK for a few modes of a network of medium size.
+/// The solver that only multiplies: ARPACK, where it was built, for a few modes of a network of medium
+/// size.
 fn by_products(w: &CouplingMatrix, plan: &Plan) -> Solver {
     let few = plan.wanted.cutoff().is_none() && plan.wanted.at_least() <= MOST_ARPACK_MODES;
-    if few && w.n_nodes() <= ARPACK_NODES { Solver::Arpack } else { Solver::Chebyshev }
+    let arpack = SolverChoice::Arpack.is_built() && few && w.n_nodes() <= ARPACK_NODES;
+    if arpack { Solver::Arpack } else { Solver::Chebyshev }
 }

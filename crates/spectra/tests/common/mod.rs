@@ -128,9 +128,12 @@ pub fn with(solver: SolverChoice, modes: Modes) -> Request {
     Request { modes, solver, ..Request::default() }
 }
 
-/// Every iterative solver.
-pub const ITERATIVE: [SolverChoice; 3] =
-    [SolverChoice::Arpack, SolverChoice::Chebyshev, SolverChoice::ShiftInvert];
+/// Every iterative solver that was built.
+pub const ITERATIVE: &[SolverChoice] = if SolverChoice::Arpack.is_built() {
+    &[SolverChoice::Arpack, SolverChoice::Chebyshev, SolverChoice::ShiftInvert]
+} else {
+    &[SolverChoice::Chebyshev, SolverChoice::ShiftInvert]
+};
 
 /// Solves, and checks what every spectrum must satisfy.
 pub fn solve(w: &CouplingMatrix, request: &Request) -> Spectrum {
