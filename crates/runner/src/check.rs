@@ -36,6 +36,7 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
 
 /// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
 pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
+    let spectrum = spectrum.real_modes();
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
     let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate().skip(n_zero);
     let mut lost = modes.filter(|(_, (lambda, residual))| **residual > CERTAIN * lambda.abs());

@@ -70,7 +70,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
     // Zero modes are zero exactly, and no others are.
-    let critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
+    let critical = msf::critical_couplings(stable, &spectrum.real_eigenvalues(), 0.0);
     let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let fastest_rate = fastest.map_or_else(|| strongest(plan), f64::abs);
     if let Some(above) = assumed_above(stable, fastest_rate) {
@@ -84,7 +84,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     }
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
-        warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
+        warnings.add("cascade", beyond(plan, spectrum.n_modes(), top));
     }
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
@@ -158,8 +158,8 @@ fn fastest(
     stable: &StableRegion,
     warnings: &mut Warnings,
 ) -> Option<f64> {
-    if spectrum.eigenvalues.len() == plan.network.n_nodes() {
-        return spectrum.eigenvalues.last().copied();
+    if spectrum.is_whole() {
+        return spectrum.real_eigenvalues().last().copied();
     }
     if stable.is_unbounded() {
         return None;

@@ -5,8 +5,10 @@
 //!
 //! Entry: [`leading_modes`]. Knows nothing of what the modes are for.
 
+mod eigenspace;
 mod error;
 mod progress;
+mod real_modes;
 mod request;
 mod spectrum;
 
@@ -22,8 +24,10 @@ mod solvers;
 mod subspace;
 mod vectors;
 
+pub use eigenspace::{Eigenspace, Eigenvalue};
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
+pub use real_modes::RealModes;
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
 pub use smallest_eigenvalue::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
@@ -41,7 +45,7 @@ use graph::CouplingMatrix;
 /// largest weight does not tell from 0 has eigenvalues of its own, as the weak links make them.
 ///
 /// Every eigenpair satisfies ‖S u − λ u‖ ≤ `tolerance` · max_i |w_ii| with ‖u‖ = 1 (for the dense
-/// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Spectrum::residuals`] are those of W itself
+/// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Eigenspace::residuals`] are those of W itself
 /// in node space, which differ from these by at most √(max k_i / min k_i) for a normalized matrix.
 ///
 /// The same matrix and request give the same bits on the same machine, whatever was solved before

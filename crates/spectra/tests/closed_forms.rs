@@ -5,12 +5,12 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{
-    BOTH, ITERATIVE, check_eigenvalues, complete, complete_bipartite, dense, descending, grid,
-    grid_eigenvalues, hypercube, nepal, network, path, ring, ring_of_cliques, scale, six_node,
-    solve, star, torus, torus_eigenvalues, with,
+    BOTH, ByMode, ITERATIVE, check_eigenvalues, complete, complete_bipartite, dense, descending,
+    grid, grid_eigenvalues, hypercube, nepal, network, path, ring, ring_of_cliques, scale,
+    six_node, solve, star, torus, torus_eigenvalues, with,
 };
 use graph::{CouplingMatrix, Network, Normalization};
-use spectra::{Modes, Request, Solver, SolverChoice, Spectrum, Verification};
+use spectra::{Modes, Request, Solver, SolverChoice, Verification};
 
 const SOLVERS: [(SolverChoice, Solver); 4] = [
     (SolverChoice::Dense, Solver::Dense),
@@ -20,7 +20,7 @@ const SOLVERS: [(SolverChoice, Solver); 4] = [
 ];
 
 /// Asserts that the number of modes has been verified, and by the means that there are.
-fn check_verified(spectrum: &Spectrum, n_nodes: usize) {
+fn check_verified(spectrum: &ByMode, n_nodes: usize) {
     match spectrum.verification {
         // Of small networks a block method's basis is one of all space.
         Verification::Dense => assert!(spectrum.solver == Solver::Dense || n_nodes <= 200),
@@ -50,7 +50,7 @@ fn check_closed_form(network: &Network, normalization: Normalization, expected: 
 }
 
 /// Sizes of the eigenspaces, from the largest eigenvalue down.
-fn multiplicities(spectrum: &Spectrum) -> Vec<usize> {
+fn multiplicities(spectrum: &ByMode) -> Vec<usize> {
     spectrum.eigenspaces.iter().map(std::iter::ExactSizeIterator::len).collect()
 }
 

@@ -122,9 +122,9 @@ impl Judge<'_> {
         let (findings, at) = (self.findings, &self.spec.at);
         match self.spec.of {
             Quantity::Eigenvalues => {
-                let eigenvalues = &findings.spectrum.eigenvalues;
+                let eigenvalues = findings.spectrum.real_eigenvalues();
                 match &at.modes {
-                    None => eigenvalues.iter().copied().map(Some).collect(),
+                    None => eigenvalues.into_iter().map(Some).collect(),
                     Some(modes) => modes.iter().map(|k| eigenvalues.get(k - 1).copied()).collect(),
                 }
             }

@@ -3,6 +3,7 @@
 use graph::{CouplingMatrix, SparseMatrix};
 use rayon::prelude::*;
 
+use crate::eigenspace::Eigenspace;
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
 use crate::matrix::product::multiply_block;
@@ -33,6 +34,12 @@ pub(crate) fn spectrum(
             products,
         });
     }
+    let last = pairs.values[pairs.len() - 1];
+    let next = if pairs.len() == w.n_nodes() {
+        f64::NEG_INFINITY
+    } else {
+        plan.wanted.missing_from(last, plan.grouping).min(last - plan.grouping)
+    };
     let eigenspaces = grouping::eigenspaces(&pairs.values, plan.grouping);
     let eigenspaces = slow_modes::settle(w, &mut pairs, eigenspaces, plan.grouping)?;
     let mut symmetric_vectors = pairs.vectors.into_iter();
@@ -44,11 +51,10 @@ pub(crate) fn spectrum(
     let vectors: Vec<Vec<Vec<f64>>> = spaces.into_par_iter().map(in_node_space).collect();
     let pairs =
         Eigenpairs { values: pairs.values, vectors: vectors.into_iter().flatten().collect() };
+    let residuals = residuals(w.matrix(), &pairs);
+    let Eigenpairs { values, vectors } = pairs;
     Ok(Spectrum {
-        residuals: residuals(w.matrix(), &pairs),
-        eigenvalues: pairs.values,
-        eigenvectors: pairs.vectors,
-        eigenspaces,
+        eigenspaces: Eigenspace::divided(&values, vectors, &residuals, &eigenspaces, next),
         tolerance: plan.grouping,
         cutoff: plan.wanted.cutoff(),
         solver,
