@@ -12,8 +12,8 @@ mod nodes;
 pub mod prepare;
 mod raw_network;
 
-pub use coupling_matrix::{CouplingMatrix, Normalization};
-pub use error::{GeneratorError, GraphError, PrepareError};
+pub use coupling_matrix::{CouplingMatrix, Normalization, SymmetricForm, Symmetry};
+pub use error::{CouplingError, GeneratorError, GraphError, PrepareError};
 pub use network::Network;
 pub use nodes::{Group, numbered_labels};
 pub use raw_network::RawNetwork;

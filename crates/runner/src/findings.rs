@@ -175,7 +175,7 @@ fn fastest(
 
 /// The largest |w_ii|, which |λ_N| is at least.
 fn strongest(plan: &Plan) -> f64 {
-    let diagonal = plan.matrix.symmetric().diag_iter();
+    let diagonal = plan.matrix.matrix().diag_iter();
     diagonal.flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 

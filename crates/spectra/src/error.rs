@@ -92,6 +92,36 @@ pub enum SpectraError {
         /// The largest allowed.
         loosest: f64,
     },
+    /// The matrix is not similar to a symmetric one by any scale of its nodes: eigenvalues may be
+    /// complex, which no solver here finds.
+    #[error(
+        "the coupling matrix is neither symmetric nor similar to a symmetric matrix: row {row}, column \
+         {column} has {value} and row {column}, column {row} has {transposed} (from 0), which no scale \
+         of the nodes balances; its eigenvalues may be complex, and only real spectra are computed"
+    )]
+    NotSymmetric {
+        /// Row of an entry w_ij, from 0.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// w_ij.
+        value: f64,
+        /// w_ji.
+        transposed: f64,
+    },
+    /// A negative link: eigenvalue 0 need not be the largest then, which every solver here builds on.
+    #[error(
+        "row {row}, column {column} (from 0) of the coupling matrix is {value}; spectra are computed \
+         for links that are not negative"
+    )]
+    NegativeLink {
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
     /// An entry of the coupling matrix overflowed.
     #[error("row {node} of the coupling matrix contains {value}")]
     NotFinite {

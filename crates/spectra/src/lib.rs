@@ -54,7 +54,9 @@ use graph::CouplingMatrix;
 /// # Errors
 /// [`SpectraError::NoModes`], [`SpectraError::TooManyModes`], [`SpectraError::BadTolerance`],
 /// [`SpectraError::ArpackNotBuilt`], [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
-/// met; [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
+/// met; [`SpectraError::NotSymmetric`] for a matrix that is not similar to a symmetric one and
+/// [`SpectraError::NegativeLink`] for one with a negative link, which no solver takes yet;
+/// [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
 /// allowed does not suffice.
 pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, SpectraError> {
@@ -70,6 +72,7 @@ pub fn leading_modes_with(
     request: &Request,
     progress: Progress<'_>,
 ) -> Result<Spectrum, SpectraError> {
+    let w = &matrix::symmetric::symmetric_form(w)?;
     let plan = request.resolve(w)?;
     let (found, solver, verification) = solvers::leading(w, &plan, progress)?;
     modes::node_space::spectrum(w, found, &plan, (solver, verification))

@@ -7,6 +7,7 @@ use graph::CouplingMatrix;
 
 use crate::error::SpectraError;
 use crate::matrix::product::Links;
+use crate::matrix::symmetric::symmetric_form;
 use crate::plan::scale;
 use crate::recurrences::lanczos::Lanczos;
 use crate::vectors::random::Random;
@@ -24,9 +25,11 @@ const SEED: u64 = 1;
 /// is damped by at σ = −ελ_N, without the modes before it.
 ///
 /// # Errors
+/// [`SpectraError::NotSymmetric`] and [`SpectraError::NegativeLink`] as in [`crate::leading_modes`],
 /// [`SpectraError::NotFinite`] for a matrix that overflows, [`SpectraError::NotConverged`] when 600
 /// products do not suffice.
 pub fn smallest_eigenvalue(w: &CouplingMatrix) -> Result<f64, SpectraError> {
+    let w = &symmetric_form(w)?;
     let scale = scale(w)?;
     let links = Links::new(w);
     let start = Random::new(SEED).block(w.n_nodes(), 1);

@@ -362,6 +362,31 @@ fn a_build_without_arpack_says_so_and_solves_by_the_others() {
 }
 
 #[test]
+fn a_matrix_given_as_it_is_has_the_spectrum_of_its_network() {
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&common::nepal(), normalization);
+        let given = CouplingMatrix::as_given(w.matrix()).unwrap();
+        let (all, found) = (solve(&w, &dense()), solve(&given, &dense()));
+        assert_eq!(found.eigenspaces, all.eigenspaces);
+        check_eigenvalues(&found, &all.eigenvalues, 1e-14 * scale(&w));
+        check_same_eigenspaces(&w, &found, &all);
+    }
+}
+
+#[test]
+fn a_directed_and_a_signed_matrix_are_refused_with_the_entry_that_makes_them_so() {
+    let directed = [[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0], [1.0, 0.0, -1.0]];
+    let signed = [[-1.0, 1.5, -0.5], [1.5, -2.5, 1.0], [-0.5, 1.0, -0.5]];
+    let given = |rows| CouplingMatrix::from_rows(rows).unwrap();
+    let (directed, signed) = (given(&directed), given(&signed));
+    let expected = SpectraError::NotSymmetric { row: 0, column: 1, value: 1.0, transposed: 0.0 };
+    assert_eq!(leading_modes(&directed, &dense()).unwrap_err(), expected);
+    assert_eq!(spectra::smallest_eigenvalue(&directed).unwrap_err(), expected);
+    let expected = SpectraError::NegativeLink { row: 0, column: 2, value: -0.5 };
+    assert_eq!(leading_modes(&signed, &dense()).unwrap_err(), expected);
+}
+
+#[test]
 fn a_matrix_that_overflows_is_refused() {
     let heavy = network(3, &[(0, 1, f64::MAX), (0, 2, f64::MAX)]);
     let w = CouplingMatrix::new(&heavy, Normalization::Laplacian);

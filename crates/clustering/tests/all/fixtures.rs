@@ -144,8 +144,9 @@ fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
 /// The spectrum of a network's coupling matrix, by Jacobi.
 pub fn spectrum_of(network: &Network, normalization: Normalization) -> Spectrum {
     let coupling = CouplingMatrix::new(network, normalization);
-    let scaled = |v: Vec<f64>| unit(v.iter().zip(coupling.scale()).map(|(v, s)| v * s).collect());
-    let modes = jacobi(dense(coupling.symmetric()));
+    let form = coupling.symmetric_form().unwrap();
+    let scaled = |v: Vec<f64>| unit(v.iter().zip(form.scale()).map(|(v, s)| v * s).collect());
+    let modes = jacobi(dense(form.symmetric()));
     let mut spectrum = spectrum(modes.into_iter().map(|(l, v)| (l, scaled(v))).collect(), 0.0);
     // Scaling leaves eigenvectors of one eigenvalue at an angle.
     for space in &mut spectrum.eigenspaces {

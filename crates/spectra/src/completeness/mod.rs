@@ -5,7 +5,7 @@ mod guards;
 mod inertia;
 mod randomised_test;
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::completeness::claim::{Claim, Outcome};
 use crate::completeness::guards::Guards;
@@ -28,7 +28,7 @@ const LEAST_CONFIDENCE: f64 = 0.99;
 
 /// Verifies modes of one matrix.
 pub(crate) struct Verifier<'a> {
-    pub w: &'a CouplingMatrix,
+    pub w: &'a SymmetricForm<'a>,
     pub symbolic: Option<&'a Symbolic<'a>>,
     pub links: &'a Links<'a>,
     /// At most the smallest eigenvalue.

@@ -2,3 +2,4 @@
 
 pub(crate) mod null_space;
 pub(crate) mod product;
+pub(crate) mod symmetric;

@@ -5,7 +5,7 @@
 //! vectors are D^{1/2} 1_c. To know them beforehand spares the iterative solver an eigenvalue that
 //! has as many copies as there are isolated nodes.
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::vectors::column::normalise;
 
@@ -20,7 +20,7 @@ pub(crate) struct Components {
 
 impl Components {
     /// Scalar products of a vector with those of [`kernel`], one for each component.
-    pub(crate) fn overlaps(&self, w: &CouplingMatrix, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn overlaps(&self, w: &SymmetricForm<'_>, u: &[f64]) -> Vec<f64> {
         let (mut products, mut squares) = (vec![0.0; self.count], vec![0.0; self.count]);
         for ((&component, scale), u_i) in self.of_node.iter().zip(w.scale()).zip(u) {
             products[component] += u_i / scale;
@@ -30,7 +30,7 @@ impl Components {
     }
 
     /// Removes from a vector its part in the kernel.
-    pub(crate) fn project_out(&self, w: &CouplingMatrix, u: &mut [f64]) {
+    pub(crate) fn project_out(&self, w: &SymmetricForm<'_>, u: &mut [f64]) {
         let mut squares = vec![0.0; self.count];
         for (&component, scale) in self.of_node.iter().zip(w.scale()) {
             squares[component] += 1.0 / scale / scale;
@@ -43,7 +43,7 @@ impl Components {
 }
 
 /// Finds the connected components of the network behind W.
-pub(crate) fn components(w: &CouplingMatrix) -> Components {
+pub(crate) fn components(w: &SymmetricForm<'_>) -> Components {
     let mut of_node = vec![usize::MAX; w.n_nodes()];
     let mut count = 0;
     let mut unvisited = Vec::new();
@@ -64,7 +64,7 @@ pub(crate) fn components(w: &CouplingMatrix) -> Components {
 }
 
 /// Orthonormal vectors that span the kernel of S, one for each component.
-pub(crate) fn kernel(w: &CouplingMatrix, components: &Components) -> Vec<Vec<f64>> {
+pub(crate) fn kernel(w: &SymmetricForm<'_>, components: &Components) -> Vec<Vec<f64>> {
     let mut vectors = vec![vec![0.0; w.n_nodes()]; components.count];
     for (node, (&component, scale)) in components.of_node.iter().zip(w.scale()).enumerate() {
         vectors[component][node] = 1.0 / scale;
@@ -79,7 +79,7 @@ pub(crate) fn kernel(w: &CouplingMatrix, components: &Components) -> Vec<Vec<f64
 mod tests {
     use super::*;
     use crate::matrix::product::multiply;
-    use graph::{Network, Normalization};
+    use graph::{CouplingMatrix, Network, Normalization};
 
     #[test]
     fn there_is_one_kernel_vector_for_each_component() {
@@ -88,6 +88,7 @@ mod tests {
         let network = Network::undirected(labels, &links).unwrap();
         for normalization in [Normalization::Laplacian, Normalization::Normalized] {
             let w = CouplingMatrix::new(&network, normalization);
+            let w = w.symmetric_form().unwrap();
             let components = components(&w);
             assert_eq!(components, Components { of_node: vec![0, 1, 2, 1, 0, 3, 0], count: 4 });
             for u in &kernel(&w, &components) {

@@ -11,7 +11,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use graph::{CouplingMatrix, SparseMatrix};
+use graph::{SparseMatrix, SymmetricForm};
 use rayon::prelude::*;
 
 use crate::vectors::block::{Block, ROWS};
@@ -66,7 +66,7 @@ struct Uniform {
 
 impl<'a> Links<'a> {
     /// Finds out whether the weights need reading.
-    pub fn new(w: &'a CouplingMatrix) -> Self {
+    pub fn new(w: &'a SymmetricForm<'a>) -> Self {
         Self { matrix: w.matrix(), uniform: Uniform::of(w.matrix()), scale: w.scale() }
     }
 

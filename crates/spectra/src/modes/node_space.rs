@@ -1,6 +1,6 @@
 //! From eigenvectors u of S to those of W in node space: v = D^{-1/2} u, unit 2-norm, fixed sign.
 
-use graph::{CouplingMatrix, SparseMatrix};
+use graph::{SparseMatrix, SymmetricForm};
 use rayon::prelude::*;
 
 use crate::eigenspace::Eigenspace;
@@ -18,7 +18,7 @@ const SIGN_TIE: f64 = 1e-6;
 
 /// The spectrum of W from the eigenpairs of S, every residual checked against the plan's bound.
 pub(crate) fn spectrum(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     found: Found,
     plan: &Plan,
     (solver, verification): (Solver, Verification),

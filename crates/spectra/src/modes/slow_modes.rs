@@ -17,7 +17,7 @@
 
 use std::ops::Range;
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::error::SpectraError;
 use crate::found::Eigenpairs;
@@ -33,7 +33,7 @@ const RESOLVED: f64 = 1e-10;
 /// Makes as many of the leading modes zero modes as there are components, finds the eigenvalues of
 /// the others in the first of these eigenspaces, and divides it.
 pub(crate) fn settle(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     pairs: &mut Eigenpairs,
     eigenspaces: Vec<Range<usize>>,
     grouping: f64,
@@ -60,7 +60,11 @@ pub(crate) fn settle(
 
 /// An orthonormal basis of what the span of some vectors, which nearly contains the kernel, holds
 /// beside it.
-fn complement(w: &CouplingMatrix, components: &Components, vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn complement(
+    w: &SymmetricForm<'_>,
+    components: &Components,
+    vectors: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
     let overlaps: Vec<Vec<f64>> = vectors.iter().map(|u| components.overlaps(w, u)).collect();
     // The eigenvectors of the smallest eigenvalues, 0 up to rounding, are orthogonal to the kernel.
     let squares = symmetric_eigen(vectors.len(), |a, b| dot(&overlaps[a], &overlaps[b]))
@@ -83,7 +87,7 @@ fn complement(w: &CouplingMatrix, components: &Components, vectors: &[Vec<f64>])
 
 /// The modes of a span beside the kernel.
 struct Slow<'a> {
-    w: &'a CouplingMatrix,
+    w: &'a SymmetricForm<'a>,
     /// The smallest |λ| outside of the span.
     next: f64,
 }

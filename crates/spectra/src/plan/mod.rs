@@ -3,7 +3,7 @@
 pub(crate) mod grouping;
 pub(crate) mod wanted;
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::error::SpectraError;
 use crate::plan::wanted::Wanted;
@@ -37,7 +37,7 @@ pub(crate) struct Plan {
 
 impl Request {
     /// Checks the request against the matrix and chooses the solver.
-    pub(crate) fn resolve(&self, w: &CouplingMatrix) -> Result<Plan, SpectraError> {
+    pub(crate) fn resolve(&self, w: &SymmetricForm<'_>) -> Result<Plan, SpectraError> {
         let wanted = self.wanted(w.n_nodes())?;
         let choice = self.choice(wanted, w.n_nodes())?;
         if !(STRICTEST_TOLERANCE..=LOOSEST_TOLERANCE).contains(&self.tolerance) {
@@ -132,7 +132,7 @@ impl Plan {
 }
 
 /// max_i |w_ii|: the largest degree of a laplacian, 1 for a normalized matrix.
-pub(crate) fn scale(w: &CouplingMatrix) -> Result<f64, SpectraError> {
+pub(crate) fn scale(w: &SymmetricForm<'_>) -> Result<f64, SpectraError> {
     let mut largest = 0.0f64;
     for (node, row) in w.symmetric().outer_iterator().enumerate() {
         for &value in row.data() {

@@ -12,7 +12,7 @@ pub(crate) mod chebyshev_davidson;
 pub(crate) mod dense;
 pub(crate) mod shift_invert_lanczos;
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::completeness::Verifier;
 use crate::error::SpectraError;
@@ -43,7 +43,7 @@ const MOST_ARPACK_MODES: usize = 50;
 
 /// Modes, the solver that found them, and how it is known that they are complete.
 pub(crate) fn leading(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     plan: &Plan,
     progress: Progress<'_>,
 ) -> Result<(Found, Solver, Verification), SpectraError> {
@@ -57,7 +57,7 @@ pub(crate) fn leading(
 
 /// The same by one of the solvers that find the leading modes alone.
 fn by_iteration(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     plan: &Plan,
     progress: Progress<'_>,
 ) -> Result<(Found, Solver, Verification), SpectraError> {
@@ -106,7 +106,7 @@ fn by_iteration(
 }
 
 fn choose(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     plan: &Plan,
     symbolic: Option<&Symbolic<'_>>,
 ) -> Result<Solver, SpectraError> {
@@ -134,7 +134,7 @@ fn choose(
 
 /// The solver that only multiplies: ARPACK, where it was built, for a few modes of a network of medium
 /// size.
-fn by_products(w: &CouplingMatrix, plan: &Plan) -> Solver {
+fn by_products(w: &SymmetricForm<'_>, plan: &Plan) -> Solver {
     let few = plan.wanted.cutoff().is_none() && plan.wanted.at_least() <= MOST_ARPACK_MODES;
     let arpack = SolverChoice::Arpack.is_built() && few && w.n_nodes() <= ARPACK_NODES;
     if arpack { Solver::Arpack } else { Solver::Chebyshev }

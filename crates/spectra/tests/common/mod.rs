@@ -204,8 +204,9 @@ pub fn scale(w: &CouplingMatrix) -> f64 {
 
 /// √(max k_i / min k_i): by how much D^{-1/2} may enlarge a residual.
 pub fn condition(w: &CouplingMatrix) -> f64 {
-    let largest = w.scale().iter().copied().fold(0.0, f64::max);
-    largest / w.scale().iter().copied().fold(f64::INFINITY, f64::min)
+    let scale = w.symmetric_form().unwrap().scale();
+    let largest = scale.iter().copied().fold(0.0, f64::max);
+    largest / scale.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 fn check_spectrum(w: &CouplingMatrix, spectrum: &ByMode) {

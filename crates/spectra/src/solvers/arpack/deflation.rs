@@ -12,7 +12,7 @@
 //! modes, at 0, are below everything, and ARPACK's test relative to each eigenvalue is as strict at
 //! one end of the spectrum as at the other.
 
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
@@ -42,7 +42,7 @@ const START_VECTORS: u128 = 0x05ec_74a1;
 
 /// The leading modes of S, whole eigenspaces only, by ARPACK.
 pub(crate) fn leading(
-    w: &CouplingMatrix,
+    w: &SymmetricForm<'_>,
     plan: &Plan,
     verifier: &Verifier<'_>,
     mut random: Random,
@@ -102,7 +102,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     /// A search that knows the kernel of S.
     fn new(
-        w: &CouplingMatrix,
+        w: &SymmetricForm<'_>,
         operator: &'a Shifted<'a>,
         plan: &'a Plan,
     ) -> Result<Self, SpectraError> {

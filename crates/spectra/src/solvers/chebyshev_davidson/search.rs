@@ -9,7 +9,7 @@
 //! modes are handed over before [`crate::completeness`] has been satisfied.
 
 use faer::Mat;
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::completeness::Verifier;
 use crate::completeness::claim::Claim;
@@ -38,7 +38,7 @@ const FRESH_BLOCKS: usize = 10;
 
 /// The state of a search.
 pub(crate) struct Search<'a> {
-    w: &'a CouplingMatrix,
+    w: &'a SymmetricForm<'a>,
     links: &'a Links<'a>,
     plan: &'a Plan,
     progress: Progress<'a>,
@@ -60,7 +60,7 @@ struct Front {
 impl<'a> Search<'a> {
     /// A search that knows the kernel of S.
     pub fn new(
-        (w, links): (&'a CouplingMatrix, &'a Links<'a>),
+        (w, links): (&'a SymmetricForm<'a>, &'a Links<'a>),
         plan: &'a Plan,
         random: Random,
         products: usize,

@@ -4,7 +4,7 @@
 //! Source: Y. Saad, Numerical Methods for Large Eigenvalue Problems (SIAM, 2011), section 4.3.
 
 use faer::Mat;
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
@@ -25,7 +25,7 @@ pub(crate) struct Modes {
 
 impl Modes {
     /// Those of a span, with one product a vector.
-    pub fn in_span(w: &CouplingMatrix, mut basis: Basis) -> Result<Self, SpectraError> {
+    pub fn in_span(w: &SymmetricForm<'_>, mut basis: Basis) -> Result<Self, SpectraError> {
         let n_vectors = basis.len();
         let mut images = Basis::empty(basis.n_rows());
         let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);

@@ -16,7 +16,7 @@
 //! vectors that enter when [`crate::completeness`] knows of them.
 
 use faer::Mat;
-use graph::CouplingMatrix;
+use graph::SymmetricForm;
 
 use crate::completeness::Verifier;
 use crate::completeness::claim::Claim;
@@ -50,7 +50,7 @@ const STRICTNESS: f64 = 0.25;
 
 /// The state of a search.
 pub(crate) struct Search<'a> {
-    w: &'a CouplingMatrix,
+    w: &'a SymmetricForm<'a>,
     plan: &'a Plan,
     inverse: Inverse<'a>,
     progress: Progress<'a>,
@@ -87,7 +87,7 @@ struct Ritz {
 impl<'a> Search<'a> {
     /// A search that knows the kernel of S.
     pub fn new(
-        w: &'a CouplingMatrix,
+        w: &'a SymmetricForm<'a>,
         plan: &'a Plan,
         (symbolic, shift): (&'a Symbolic<'a>, f64),
         mut random: Random,

@@ -2,10 +2,14 @@
 //!
 //! - laplacian: w_ij = a_ij, w_ii = −Σ_j a_ij
 //! - normalized: w_ij = a_ij / k_i, w_ii = −1, with k_i = Σ_j a_ij
+//! - as given: any W whose rows sum to zero
 //!
 //! A normalized matrix of a symmetric network is similar to a symmetric one, and so has a real
 //! spectrum: W = D^{-1/2} S D^{1/2} with S = D^{-1/2} A D^{-1/2} − I and D = diag(k_i). If u is an
-//! eigenvector of S, v = D^{-1/2} u is one of W.
+//! eigenvector of S, v = D^{-1/2} u is one of W. Of a given matrix [`balance`] finds out.
+
+mod balance;
+mod given;
 
 use crate::{Network, SparseMatrix};
 
@@ -18,13 +22,40 @@ pub enum Normalization {
     Normalized,
 }
 
-/// The coupling matrix W of a symmetric network, with its symmetric form.
+/// What is known of the symmetry of a coupling matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Symmetry {
+    /// W = Wᵀ.
+    Symmetric,
+    /// W = D^{-1/2} S D^{1/2} with S = Sᵀ and a positive diagonal matrix D.
+    Similar,
+    /// Neither: no D balances d_i w_ij = d_j w_ji at these two nodes. Eigenvalues may be complex.
+    Neither {
+        /// The nodes i and j, from 0.
+        at: (usize, usize),
+    },
+}
+
+/// The coupling matrix W, with the symmetric matrix that it is similar to where there is one.
 #[derive(Clone, Debug)]
 pub struct CouplingMatrix {
     matrix: SparseMatrix,
-    /// None where it is the matrix itself.
-    symmetric: Option<SparseMatrix>,
-    scale: Vec<f64>,
+    form: Form,
+}
+
+#[derive(Clone, Debug)]
+enum Form {
+    /// With D = 1.
+    Symmetric {
+        scale: Vec<f64>,
+    },
+    Similar {
+        symmetric: SparseMatrix,
+        scale: Vec<f64>,
+    },
+    Neither {
+        at: (usize, usize),
+    },
 }
 
 impl CouplingMatrix {
@@ -35,7 +66,7 @@ impl CouplingMatrix {
         match normalization {
             Normalization::Laplacian => {
                 let matrix = with_diagonal(adjacency, |_, _, a| a, |i| -strengths[i]);
-                Self { symmetric: None, matrix, scale: vec![1.0; network.n_nodes()] }
+                Self { matrix, form: Form::Symmetric { scale: vec![1.0; network.n_nodes()] } }
             }
             Normalization::Normalized => {
                 let is_linked = |i: usize| strengths[i] > 0.0;
@@ -45,14 +76,14 @@ impl CouplingMatrix {
                 let matrix = with_diagonal(adjacency, |i, _, a| a / strengths[i], diagonal);
                 let symmetric =
                     with_diagonal(adjacency, |i, j, a| scale[i] * scale[j] * a, diagonal);
-                Self { matrix, symmetric: Some(symmetric), scale }
+                Self { matrix, form: Form::Similar { symmetric, scale } }
             }
         }
     }
 
     /// Number of nodes N.
     pub fn n_nodes(&self) -> usize {
-        self.scale.len()
+        self.matrix.rows()
     }
 
     /// W itself, shape (N, N), every diagonal entry stored.
@@ -60,16 +91,55 @@ impl CouplingMatrix {
         &self.matrix
     }
 
+    /// What is known of its symmetry.
+    pub fn symmetry(&self) -> Symmetry {
+        match self.form {
+            Form::Symmetric { .. } => Symmetry::Symmetric,
+            Form::Similar { .. } => Symmetry::Similar,
+            Form::Neither { at } => Symmetry::Neither { at },
+        }
+    }
+
+    /// W together with the symmetric matrix that it is similar to, where there is one.
+    pub fn symmetric_form(&self) -> Option<SymmetricForm<'_>> {
+        let (symmetric, scale) = match &self.form {
+            Form::Symmetric { scale } => (&self.matrix, scale),
+            Form::Similar { symmetric, scale } => (symmetric, scale),
+            Form::Neither { .. } => return None,
+        };
+        Some(SymmetricForm { matrix: &self.matrix, symmetric, scale })
+    }
+}
+
+/// W = D^{-1/2} S D^{1/2}.
+#[derive(Clone, Copy, Debug)]
+pub struct SymmetricForm<'a> {
+    matrix: &'a SparseMatrix,
+    symmetric: &'a SparseMatrix,
+    scale: &'a [f64],
+}
+
+impl<'a> SymmetricForm<'a> {
+    /// Number of nodes N.
+    pub fn n_nodes(&self) -> usize {
+        self.scale.len()
+    }
+
+    /// W itself, shape (N, N), every diagonal entry stored.
+    pub fn matrix(&self) -> &'a SparseMatrix {
+        self.matrix
+    }
+
     /// The symmetric matrix S similar to W, shape (N, N), every diagonal entry stored: same
     /// eigenvalues, and v = `scale` · u (elementwise) is an eigenvector of W when u is one of S.
-    pub fn symmetric(&self) -> &SparseMatrix {
-        self.symmetric.as_ref().unwrap_or(&self.matrix)
+    pub fn symmetric(&self) -> &'a SparseMatrix {
+        self.symmetric
     }
 
     /// D^{-1/2}, length N: what takes eigenvectors of [`Self::symmetric`] to those of W. All ones
-    /// for a laplacian.
-    pub fn scale(&self) -> &[f64] {
-        &self.scale
+    /// for a symmetric W.
+    pub fn scale(&self) -> &'a [f64] {
+        self.scale
     }
 }
 
