@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::edge_list::EdgeListError;
+use super::error::EdgeListError;
 
 /// One value of a line.
 pub(crate) struct Field<'a> {
