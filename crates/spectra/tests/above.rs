@@ -127,7 +127,7 @@ fn small_world(n_nodes: usize, rewired: f64, random: &mut Pcg64) -> Network {
 }
 
 fn uniform(random: &mut Pcg64) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    graph::unit_interval(random.next_u64())
 }
 
 /// One network of each family; the generators of this project first.

@@ -146,7 +146,7 @@ impl Random {
 
     /// Uniform in [0, 1).
     fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+        graph::unit_interval(self.0.next_u64())
     }
 
     /// Standard normal, by Box and Muller.

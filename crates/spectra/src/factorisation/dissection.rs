@@ -8,6 +8,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::Perm;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
+use graph::Components;
 
 /// A half that nodes belong to, or the cut.
 #[derive(Clone, Copy, PartialEq)]
@@ -38,31 +39,15 @@ pub(crate) fn order(pattern: SymbolicSparseColMatRef<'_, u32>, cut: &[u32]) -> O
 fn sides(pattern: SymbolicSparseColMatRef<'_, u32>, cut: &[u32]) -> Vec<Side> {
     let mut sides = vec![Side::Unknown; pattern.ncols()];
     cut.iter().for_each(|&node| sides[node as usize] = Side::Cut);
-    let mut parts: Vec<Vec<u32>> = Vec::new();
-    for first in 0..pattern.ncols() as u32 {
-        if sides[first as usize] != Side::Unknown {
-            continue;
-        }
-        sides[first as usize] = Side::Half(0);
-        let mut part = vec![first];
-        let mut next = 0;
-        while let Some(&node) = part.get(next) {
-            next += 1;
-            for &neighbour in pattern.row_idx_of_col_raw(node as usize) {
-                if sides[neighbour as usize] == Side::Unknown {
-                    sides[neighbour as usize] = Side::Half(0);
-                    part.push(neighbour);
-                }
-            }
-        }
-        parts.push(part);
-    }
+    let neighbours = |node| pattern.row_idx_of_col_raw(node);
+    let is_left = |node: usize| sides[node] != Side::Cut;
+    let mut parts = Components::among(pattern.ncols(), neighbours, is_left).nodes();
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
     let mut sizes = [0, 0];
     for part in parts {
         let half = usize::from(sizes[1] < sizes[0]);
         sizes[half] += part.len();
-        part.iter().for_each(|&node| sides[node as usize] = Side::Half(half as u8));
+        part.iter().for_each(|&node| sides[node] = Side::Half(half as u8));
     }
     sides
 }

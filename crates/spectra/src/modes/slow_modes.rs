@@ -10,7 +10,7 @@
 //! ```
 //!
 //! is a sum in which nothing cancels: strong links multiply squares of differences that are as small as
-//! rounding. So the kernel, known exactly, is taken out of the span, and the Rayleigh–Ritz method with
+//! rounding. So the null space, known exactly, is taken out of the span, and the Rayleigh–Ritz method with
 //! these entries gives the rest, again for what it cannot tell from 0 beside its own largest value.
 //! An eigenvalue is off by r²/gap, r the residual and gap the distance to those outside of the span
 //! (Parlett, The Symmetric Eigenvalue Problem (1980), Sec. 11.7).
@@ -21,7 +21,7 @@ use graph::SymmetricForm;
 
 use crate::error::SpectraError;
 use crate::found::Eigenpairs;
-use crate::matrix::null_space::{Components, components, kernel};
+use crate::matrix::null_space::NullSpace;
 use crate::matrix::product::multiply;
 use crate::plan::grouping::end_of_eigenspace;
 use crate::vectors::column::{add_scaled, dot, norm, normalise, orthonormalise_against};
@@ -38,13 +38,13 @@ pub(crate) fn settle(
     eigenspaces: Vec<Range<usize>>,
     grouping: f64,
 ) -> Result<Vec<Range<usize>>, SpectraError> {
-    let components = components(w);
-    let (n_zero, n_slow) = (components.count, eigenspaces[0].len());
+    let null_space = NullSpace::of(w);
+    let (n_zero, n_slow) = (null_space.dimension(), eigenspaces[0].len());
     assert!(n_zero <= n_slow, "{n_zero} components, but only {n_slow} modes of eigenvalue 0");
-    let zero_modes = kernel(w, &components);
+    let zero_modes = null_space.vectors();
     let mut settled = std::iter::once(0..n_zero).collect::<Vec<_>>();
     if n_zero < n_slow {
-        let span = complement(w, &components, &pairs.vectors[..n_slow]);
+        let span = complement(w, &null_space, &pairs.vectors[..n_slow]);
         let next = pairs.values.get(n_slow).map_or(grouping, |next| next.abs());
         let slow = Slow { w, next };
         let mut found = Eigenpairs::default();
@@ -58,25 +58,25 @@ pub(crate) fn settle(
     Ok(settled)
 }
 
-/// An orthonormal basis of what the span of some vectors, which nearly contains the kernel, holds
+/// An orthonormal basis of what the span of some vectors, which nearly contains the null space, holds
 /// beside it.
 fn complement(
     w: &SymmetricForm<'_>,
-    components: &Components,
+    null_space: &NullSpace<'_>,
     vectors: &[Vec<f64>],
 ) -> Vec<Vec<f64>> {
-    let overlaps: Vec<Vec<f64>> = vectors.iter().map(|u| components.overlaps(w, u)).collect();
-    // The eigenvectors of the smallest eigenvalues, 0 up to rounding, are orthogonal to the kernel.
+    let overlaps: Vec<Vec<f64>> = vectors.iter().map(|u| null_space.overlaps(u)).collect();
+    // The eigenvectors of the smallest eigenvalues, 0 up to rounding, are orthogonal to the null space.
     let squares = symmetric_eigen(vectors.len(), |a, b| dot(&overlaps[a], &overlaps[b]))
         .expect("a small matrix of finite numbers has eigenvalues");
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    for column in components.count..vectors.len() {
+    for column in null_space.dimension()..vectors.len() {
         let mut vector = vec![0.0; w.n_nodes()];
         for (k, other) in vectors.iter().enumerate() {
             add_scaled(squares.vectors[(k, column)], other, &mut vector);
         }
         for _ in 0..2 {
-            components.project_out(w, &mut vector);
+            null_space.project_out(&mut vector);
             orthonormalise_against(&basis, &mut vector);
         }
         normalise(&mut vector);
@@ -85,7 +85,7 @@ fn complement(
     basis
 }
 
-/// The modes of a span beside the kernel.
+/// The modes of a span beside the null space.
 struct Slow<'a> {
     w: &'a SymmetricForm<'a>,
     /// The smallest |λ| outside of the span.

@@ -2,6 +2,7 @@
 //!
 //! Source: G. Marsaglia & T. A. Bray, SIAM Review 6, 260 (1964), polar method.
 
+use graph::unit_interval;
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
@@ -44,7 +45,7 @@ impl Random {
 
     /// Uniform in [−1, 1).
     fn uniform(&mut self) -> f64 {
-        (self.bits.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        2.0 * unit_interval(self.bits.next_u64()) - 1.0
     }
 }
 

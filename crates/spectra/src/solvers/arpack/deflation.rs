@@ -6,13 +6,13 @@
 //! lies below the last eigenvalue kept. That largest eigenvalue is what Lanczos finds first, and a
 //! random start vector misses its eigenspace with probability zero.
 //!
-//! The search starts from the kernel of S, which is known.
+//! The search starts from the null space of S, which is known.
 //!
 //! The complement is that of A = S + 3 s·1, s = max_i |w_ii|. Its spectrum lies in [s, 3s]: deflated
 //! modes, at 0, are below everything, and ARPACK's test relative to each eigenvalue is as strict at
 //! one end of the spectrum as at the other.
 
-use graph::SymmetricForm;
+use graph::{SymmetricForm, unit_interval};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
@@ -20,7 +20,7 @@ use crate::completeness::Verifier;
 use crate::completeness::claim::Claim;
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
-use crate::matrix::null_space::{components, kernel};
+use crate::matrix::null_space::NullSpace;
 use crate::plan::Plan;
 use crate::plan::wanted::Wanted;
 use crate::solvers::arpack::library;
@@ -100,20 +100,20 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A search that knows the kernel of S.
+    /// A search that knows the null space of S.
     fn new(
         w: &SymmetricForm<'_>,
         operator: &'a Shifted<'a>,
         plan: &'a Plan,
     ) -> Result<Self, SpectraError> {
-        let components = components(w);
+        let null_space = NullSpace::of(w);
         let wanted = shifted(plan.wanted, operator.shift);
-        let values = vec![operator.shift; components.count];
+        let values = vec![operator.shift; null_space.dimension()];
         let search = Self {
             operator,
             plan,
             wanted,
-            found: Eigenpairs { values, vectors: kernel(w, &components) },
+            found: Eigenpairs { values, vectors: null_space.vectors() },
             products: 0,
             random: Pcg64::new(u128::from(plan.seed), START_VECTORS),
         };
@@ -193,7 +193,7 @@ impl<'a> Search<'a> {
     /// projection.
     fn start_vector(&mut self) -> Vec<f64> {
         let mut start: Vec<f64> = (0..self.operator.n_rows())
-            .map(|_| (self.random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
+            .map(|_| 2.0 * unit_interval(self.random.next_u64()) - 1.0)
             .collect();
         orthonormalise_against(&self.found.vectors, &mut start);
         start

@@ -1,7 +1,7 @@
 //! Leading modes by a block Davidson method: Rayleigh–Ritz on a basis that grows by amplified Ritz
 //! vectors.
 //!
-//! The search starts from the kernel of S, which is known. Long Lanczos sequences, which cost the fewest
+//! The search starts from the null space of S, which is known. Long Lanczos sequences, which cost the fewest
 //! products, find one copy of each eigenvalue ([`LongSequence`]). Blocks find several: the first
 //! Ritz vectors that have not converged are amplified by a Chebyshev filter (Zhou & Saad, SIAM J. Matrix
 //! Anal. Appl. 29, 954 (2007)), made orthogonal to the basis, and added; when it is full it is cut down
@@ -15,7 +15,7 @@ use crate::completeness::Verifier;
 use crate::completeness::claim::Claim;
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
-use crate::matrix::null_space::{components, kernel};
+use crate::matrix::null_space::NullSpace;
 use crate::matrix::product::Links;
 use crate::plan::Plan;
 use crate::progress::{Advance, Progress};
@@ -58,7 +58,7 @@ struct Front {
 }
 
 impl<'a> Search<'a> {
-    /// A search that knows the kernel of S.
+    /// A search that knows the null space of S.
     pub fn new(
         (w, links): (&'a SymmetricForm<'a>, &'a Links<'a>),
         plan: &'a Plan,
@@ -66,14 +66,14 @@ impl<'a> Search<'a> {
         products: usize,
         progress: Progress<'a>,
     ) -> Result<Self, SpectraError> {
-        let components = components(w);
-        plan.wanted.check(&vec![0.0; components.count], plan.grouping)?;
+        let null_space = NullSpace::of(w);
+        plan.wanted.check(&vec![0.0; null_space.dimension()], plan.grouping)?;
         let mut basis = Basis::empty(w.n_nodes());
-        for vector in kernel(w, &components) {
+        for vector in null_space.vectors() {
             basis.push(&vector);
         }
         let settled = vec![0.0; basis.len()];
-        let space = Projected::kernel(basis);
+        let space = Projected::null_space(basis);
         Ok(Self { w, links, plan, progress, space, settled, random, products, tries: 0 })
     }
 

@@ -16,7 +16,7 @@ pub(crate) struct Projected {
 
 impl Projected {
     /// A basis of eigenvectors to the eigenvalue 0.
-    pub fn kernel(basis: Basis) -> Self {
+    pub fn null_space(basis: Basis) -> Self {
         let projection = Projection::diagonal(&vec![0.0; basis.len()]);
         Self { basis, projection }
     }

@@ -1,7 +1,7 @@
 //! Leading modes by a block Lanczos method on (μ − S)⁻¹, μ slightly above 0, with all vectors kept
 //! orthogonal.
 //!
-//! Let the basis V be orthogonal to the kernel of S, and (μ − S)⁻¹ V = V H + Q B with Q orthogonal to
+//! Let the basis V be orthogonal to the null space of S, and (μ − S)⁻¹ V = V H + Q B with Q orthogonal to
 //! V. An eigenpair H y = ν y has the residual Q B y, the eigenvalue λ = μ − 1/ν of S belongs to it,
 //! and the vector
 //!
@@ -24,7 +24,7 @@ use crate::error::SpectraError;
 use crate::factorisation::inverse::Inverse;
 use crate::factorisation::symbolic::Symbolic;
 use crate::found::Found;
-use crate::matrix::null_space::{components, kernel};
+use crate::matrix::null_space::NullSpace;
 use crate::plan::Plan;
 use crate::progress::{Advance, Progress};
 use crate::solvers::shift_invert_lanczos::ritz::Modes;
@@ -58,7 +58,7 @@ pub(crate) struct Search<'a> {
     products: usize,
     /// The eigenvectors that are locked, then V, in the order of elimination.
     basis: Basis,
-    /// Eigenvalues of those locked: of the kernel of S, and of others as accurate as they must be.
+    /// Eigenvalues of those locked: of the null space of S, and of others as accurate as they must be.
     locked: Vec<f64>,
     /// H.
     projected: Projection,
@@ -85,7 +85,7 @@ struct Ritz {
 }
 
 impl<'a> Search<'a> {
-    /// A search that knows the kernel of S.
+    /// A search that knows the null space of S.
     pub fn new(
         w: &'a SymmetricForm<'a>,
         plan: &'a Plan,
@@ -93,15 +93,15 @@ impl<'a> Search<'a> {
         mut random: Random,
         progress: Progress<'a>,
     ) -> Result<Self, SpectraError> {
-        let components = components(w);
-        plan.wanted.check(&vec![0.0; components.count], plan.grouping)?;
-        let width = WIDTH.min(w.n_nodes() - components.count);
+        let null_space = NullSpace::of(w);
+        plan.wanted.check(&vec![0.0; null_space.dimension()], plan.grouping)?;
+        let width = WIDTH.min(w.n_nodes() - null_space.dimension());
         let mut start = || (width > 0).then(|| random.block(w.n_nodes(), width));
-        let (inverse, (kernel, start)) =
-            rayon::join(|| Inverse::new(symbolic, shift), || (kernel(w, &components), start()));
+        let (inverse, (null_vectors, start)) =
+            rayon::join(|| Inverse::new(symbolic, shift), || (null_space.vectors(), start()));
         let inverse = inverse.ok_or(SpectraError::NotPositiveDefinite { shift })?;
         let mut basis = Basis::empty(w.n_nodes());
-        for vector in kernel {
+        for vector in null_vectors {
             basis.append(&inverse.to_elimination(&Block::from_nodes(1, vector)));
         }
         let mut search = Self {
