@@ -4,6 +4,8 @@
 
 mod abuse;
 mod faults;
+mod finite;
+mod journal;
 mod kills;
 mod mutation;
 mod program;

@@ -3,15 +3,16 @@
 use std::cmp::Reverse;
 
 use crate::instruction_set::Work;
-use crate::kernel::{Network, WIDTH};
+use crate::kernel::Network;
 use crate::kicks::Kicks;
 use crate::links::Links;
 use crate::observables::ErrorSums;
-use crate::{Next, Observer, Oscillator, Outcome, Simulation, Snapshot, Start};
+use crate::stage::TILE;
+use crate::{Next, Observer, Outcome, Simulation, Snapshot, Start};
 
 /// Numbers of lanes, and what a step of so many costs beside that of a single one: measured on
 /// networks of 90 and 989 nodes with AVX-512, and rounded.
-const COSTS: [(usize, f64); 5] = [(1, 1.0), (2, 1.1), (4, 1.6), (8, 2.25), (WIDTH, 3.8)];
+const COSTS: [(usize, f64); 5] = [(1, 1.0), (2, 1.1), (4, 1.6), (8, 2.25), (TILE, 3.8)];
 
 /// Sizes of the batches into which replicas are cut so that the slowest thread ends earliest: every
 /// thread gets an equal share, and each share is cut as costs least.
@@ -53,29 +54,27 @@ fn cheapest(n_replicas: usize) -> Vec<usize> {
 pub(crate) type Numbered = (usize, Start);
 
 /// Replicas advanced side by side in `L` lanes, their rows summed `R` side by side.
-pub(crate) struct Batch<'a, O, const D: usize, const L: usize, const R: usize> {
+pub(crate) struct Batch<'a, const L: usize, const R: usize> {
     pub(crate) simulation: &'a Simulation<'a>,
     pub(crate) links: &'a Links,
-    pub(crate) oscillator: O,
     /// At most `L`, all after the same sample.
     pub(crate) starts: Vec<Numbered>,
     pub(crate) observer: &'a dyn Observer,
 }
 
-impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> Work
-    for Batch<'_, O, D, L, R>
-{
+impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
     /// None when the observer wanted to stop.
     type Output = Option<Vec<(usize, Outcome)>>;
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { simulation, links, oscillator, starts, observer } = self;
-        let Simulation { schedule, observables, kick, .. } = simulation;
+        let Self { simulation, links, starts, observer } = self;
+        let Simulation { dynamics, coupling, schedule, observables, kick, .. } = simulation;
         // Lanes beyond the batch repeat its last replica and are never read.
         let in_lanes = std::array::from_fn(|lane| starts[lane.min(starts.len() - 1)].1.replica);
-        let mut lanes = InLanes::<O, D, L, R> {
-            network: Network::new(oscillator, simulation.coupling, links, in_lanes),
+        let equations = (dynamics.as_ref(), coupling);
+        let mut lanes = InLanes::<L, R> {
+            network: Network::new(equations, simulation.instruction_set, links, in_lanes),
             sums: ErrorSums::new(observables, links.n_nodes(), schedule.samples_per_block()),
             kicks: Kicks::new(*kick, schedule.sampling_interval(), in_lanes),
         };
@@ -144,13 +143,13 @@ fn finish(
 }
 
 /// All that changes while a batch runs.
-struct InLanes<O, const D: usize, const L: usize, const R: usize> {
-    network: Network<O, D, L, R>,
+struct InLanes<'a, const L: usize, const R: usize> {
+    network: Network<'a, L, R>,
     sums: ErrorSums<L>,
     kicks: Kicks<L>,
 }
 
-impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> InLanes<O, D, L, R> {
+impl<const L: usize, const R: usize> InLanes<'_, L, R> {
     /// Takes up every replica where its snapshot left it.
     #[cold]
     #[inline(never)]
@@ -165,7 +164,7 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> InLanes<O
             (0..L).for_each(|lane| self.sums.restore(lane, &of(lane).sums));
             self.sums.go_on_after(sample - transient);
         }
-        self.kicks.go_on_after(sample, D * n_nodes);
+        self.kicks.go_on_after(sample, self.network.n_components() * n_nodes);
     }
 
     /// What a lane has come to.
@@ -173,7 +172,7 @@ impl<O: Oscillator<D>, const D: usize, const L: usize, const R: usize> InLanes<O
     #[inline(never)]
     fn snapshot(&mut self, lane: usize, (sample, transient): (u64, u64)) -> Snapshot {
         let component = |c| self.network.component(c).map(|lanes| lanes[lane]);
-        let state = (0..D).flat_map(component).collect();
+        let state = (0..self.network.n_components()).flat_map(component).collect();
         let sums = if sample > transient { self.sums.kept(lane) } else { Vec::new() };
         Snapshot { sample, state, sums }
     }
@@ -196,7 +195,7 @@ mod tests {
         for (n_replicas, n_threads) in (0..70).flat_map(|n| [1, 2, 3, 8].map(|t| (n, t))) {
             let sizes = sizes(n_replicas, n_threads);
             assert_eq!(sizes.iter().sum::<usize>(), n_replicas);
-            assert!(sizes.iter().all(|size| (1..=WIDTH).contains(size)), "{sizes:?}");
+            assert!(sizes.iter().all(|size| (1..=TILE).contains(size)), "{sizes:?}");
         }
     }
 
@@ -226,7 +225,7 @@ mod tests {
         for n in 1..50usize {
             let binary: Vec<usize> =
                 (0..4).map(|bit| 1 << bit).filter(|size| n & size != 0).collect();
-            let full = [vec![WIDTH; n / WIDTH], binary].concat();
+            let full = [vec![TILE; n / TILE], binary].concat();
             assert!(cost(&cheapest(n)) <= cost(&full) + 1e-12, "{n}: {:?}", cheapest(n));
         }
     }

@@ -22,6 +22,8 @@ mod kicks;
 mod linear_step;
 mod links;
 pub mod lyapunov;
+mod native;
+mod node;
 mod observables;
 mod observer;
 mod oscillator;
@@ -33,13 +35,16 @@ mod settled;
 mod shared_sums;
 mod simulation;
 mod slow_time;
+mod stage;
 mod statistics;
 
-pub use coupling::Coupling;
+pub use coupling::{Coupling, Gain};
 pub use error::DynamicsError;
 pub use instruction_set::{InstructionSet, Work};
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
 pub use linear_step::{LinearSteps, StepVerdict};
+pub use native::Native;
+pub use node::{Linearised, LinearisedMut, MAX_COMPONENTS, NodeDynamics};
 pub use observables::{Errors, Observables, pair_index};
 pub use observer::{Next, Observer, Snapshot, Start};
 pub use oscillator::Oscillator;
@@ -48,6 +53,7 @@ pub use scalar::{Dual, Lanes, Scalar};
 pub use settled::settled;
 pub use simulation::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
 pub use slow_time::slow_time;
+pub use stage::Stage;
 pub use statistics::{BLOCKS, Estimate};
 
 /// Sparse matrix in compressed-row form with 32-bit column indices.

@@ -15,8 +15,7 @@
 use nalgebra::{Complex, DMatrix, Schur};
 
 use crate::isolated_orbit::IsolatedOrbit;
-use crate::oscillators::with_oscillator;
-use crate::{Coupling, Dual, DynamicsError, Model, Oscillator};
+use crate::{Coupling, DynamicsError, InstructionSet, Linearised, LinearisedMut, NodeDynamics};
 
 /// The orbit is followed with the step in question divided by this.
 const FINER: f64 = 4.0;
@@ -64,18 +63,16 @@ impl LinearSteps {
     /// # Errors
     /// [`DynamicsError::BadStep`]; [`DynamicsError::Escaped`] where the orbit does even so.
     pub fn along_orbit(
-        model: Model,
-        coupling: Coupling,
+        dynamics: &dyn NodeDynamics,
+        coupling: &Coupling,
         step: f64,
         seed: u64,
     ) -> Result<Self, DynamicsError> {
         if !(step.is_finite() && step > 0.0) {
             return Err(DynamicsError::BadStep { step });
         }
-        let jacobians = with_oscillator!(model, oscillator => {
-            jacobians(oscillator, step / FINER, seed)
-        })?;
-        Ok(Self { jacobians, coupling })
+        let jacobians = jacobians(dynamics, step / FINER, seed)?;
+        Ok(Self { jacobians, coupling: coupling.clone() })
     }
 
     /// What a step does at this σ.
@@ -133,10 +130,11 @@ impl LinearSteps {
 
     /// Eigenvalues of DF − σ DH, one Jacobian after the other.
     fn rates(&self, sigma: f64) -> impl Iterator<Item = Vec<Complex<f64>>> {
-        let Coupling { from, to } = self.coupling;
         self.jacobians.iter().map(move |jacobian| {
             let mut a = jacobian.clone();
-            a[(to, from)] -= sigma;
+            for (equation, component, weight) in self.coupling.derivative() {
+                a[(equation, component)] -= sigma * weight;
+            }
             eigenvalues(a)
         })
     }
@@ -159,17 +157,17 @@ fn growth(z: Complex<f64>) -> f64 {
     (one + z * (one + z * (one / 2.0 + z * (one / 6.0 + z / 24.0)))).norm()
 }
 
-fn jacobians<O: Oscillator<D>, const D: usize>(
-    oscillator: O,
+fn jacobians(
+    dynamics: &dyn NodeDynamics,
     step: f64,
     seed: u64,
 ) -> Result<Vec<DMatrix<f64>>, DynamicsError> {
-    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
+    let mut orbit = IsolatedOrbit::begin(dynamics, step, seed);
     let mut jacobians = Vec::with_capacity(SAMPLES);
     while jacobians.len() < SAMPLES {
         let until = if jacobians.is_empty() { TRANSIENT } else { STRIDE };
         (0..until).for_each(|_| orbit.advance());
-        let here = jacobian(oscillator, orbit.bounded()?);
+        let here = jacobian(dynamics, orbit.bounded()?);
         if !here.iter().all(|entry| entry.is_finite()) {
             return Err(orbit.escaped());
         }
@@ -178,28 +176,34 @@ fn jacobians<O: Oscillator<D>, const D: usize>(
     Ok(jacobians)
 }
 
-fn jacobian<O: Oscillator<D>, const D: usize>(oscillator: O, state: [f64; D]) -> DMatrix<f64> {
-    let mut jacobian = DMatrix::zeros(D, D);
-    for column in 0..D {
-        let slope = oscillator.flow(std::array::from_fn(|c| Dual {
-            value: state[c],
-            tangent: f64::from(u8::from(c == column)),
-        }));
-        for row in 0..D {
-            jacobian[(row, column)] = slope[row].tangent;
-        }
-    }
-    jacobian
+/// DF at a state, column by column from the tangents along the axes.
+fn jacobian(dynamics: &dyn NodeDynamics, state: &[f64]) -> DMatrix<f64> {
+    let n = state.len();
+    let values: Vec<Vec<f64>> = state.iter().map(|&x| vec![x; n]).collect();
+    let axes = DMatrix::<f64>::identity(n, n);
+    let (mut slopes, mut columns) = (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]);
+    dynamics.tangent_flow(
+        InstructionSet::Baseline,
+        Linearised {
+            value: &values.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+            tangent: &axes.as_slice().chunks(n).collect::<Vec<_>>(),
+        },
+        LinearisedMut {
+            value: &mut slopes.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
+            tangent: &mut columns.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
+        },
+    );
+    DMatrix::from_fn(n, n, |row, column| columns[row][column])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{HindmarshRose, Lorenz, Rossler};
+    use crate::{HindmarshRose, Lorenz, Model, Rossler};
 
     fn lorenz(from: usize, to: usize) -> LinearSteps {
         let model = Model::Lorenz(Lorenz::default());
-        LinearSteps::along_orbit(model, Coupling { from, to }, 0.01, 1).unwrap()
+        LinearSteps::along_orbit(&model, &Coupling::pair(from, to), 0.01, 1).unwrap()
     }
 
     #[test]
@@ -249,8 +253,8 @@ mod tests {
             (Model::HindmarshRose(HindmarshRose::default()), 3.0),
         ];
         for (model, sigma) in models {
-            for coupling in [Coupling { from: 0, to: 0 }, Coupling { from: 0, to: 1 }] {
-                let steps = LinearSteps::along_orbit(model, coupling, 0.01, 1).unwrap();
+            for coupling in [Coupling::pair(0, 0), Coupling::pair(0, 1)] {
+                let steps = LinearSteps::along_orbit(&model, &coupling, 0.01, 1).unwrap();
                 for sigma in [0.0, 0.1 * sigma, sigma] {
                     assert_eq!(steps.judge(sigma, 0.01), StepVerdict::Sound, "{model:?} {sigma}");
                 }

@@ -8,21 +8,17 @@
 //! the logarithms of their growth averaged.
 
 mod master_equation;
-
-use std::ops::Mul;
+mod tiles;
 
 use rayon::prelude::*;
 
-use master_equation::{Batch, MasterEquation, Orbit};
+pub(crate) use master_equation::fused;
+use tiles::Tiles;
+pub(crate) use tiles::by_flow;
 
 use crate::error::{check_times, whole};
-use crate::integrators::rk4::{self, Flow};
-use crate::oscillators::with_oscillator;
-use crate::random::initial_states;
 use crate::statistics::BLOCKS;
-use crate::{
-    Coupling, Dual, DynamicsError, Estimate, InstructionSet, Lanes, Model, Oscillator, Progress,
-};
+use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress};
 
 /// The most tangents advanced together.
 const MAX_LANES: usize = 16;
@@ -52,6 +48,14 @@ pub struct Tangent {
     pub seed: u64,
 }
 
+/// Tangents of the master equation that are advanced together, at most sixteen.
+pub struct Tangents<'a> {
+    coupling: &'a Coupling,
+    plan: &'a Plan,
+    tangents: &'a [Tangent],
+    progress: Progress<'a>,
+}
+
 /// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
 /// time, with standard errors over [`BLOCKS`] blocks. Tangents with one seed have one orbit, and are
 /// cheaper for it; their errors are then correlated.
@@ -64,13 +68,13 @@ pub struct Tangent {
 /// that make no sense; [`DynamicsError::Escaped`] when an orbit leaves the ball of radius
 /// [`crate::ESCAPE_RADIUS`].
 pub fn master_exponents(
-    model: Model,
-    coupling: Coupling,
+    dynamics: &dyn NodeDynamics,
+    coupling: &Coupling,
     times: &Times,
     tangents: &[Tangent],
     progress: Progress<'_>,
 ) -> Result<Vec<Estimate>, DynamicsError> {
-    master_exponents_with(InstructionSet::best(), model, coupling, times, tangents, progress)
+    master_exponents_with(InstructionSet::best(), dynamics, coupling, times, tangents, progress)
 }
 
 /// [`master_exponents`] with given vector instructions, on which the results do not depend.
@@ -82,8 +86,8 @@ pub fn master_exponents(
 /// When this processor does not have the instructions.
 pub fn master_exponents_with(
     instruction_set: InstructionSet,
-    model: Model,
-    coupling: Coupling,
+    dynamics: &dyn NodeDynamics,
+    coupling: &Coupling,
     times: &Times,
     tangents: &[Tangent],
     progress: Progress<'_>,
@@ -102,10 +106,8 @@ pub fn master_exponents_with(
         .collect();
     let run = |&batch: &&[usize]| {
         let tangents: Vec<Tangent> = batch.iter().map(|&index| tangents[index]).collect();
-        with_oscillator!(model, oscillator => {
-            let batch = Batch { oscillator, coupling, plan: &plan, tangents: &tangents, progress };
-            batch.run_with(instruction_set)
-        })
+        let tangents = Tangents { coupling, plan: &plan, tangents: &tangents, progress };
+        dynamics.exponents(instruction_set, &tangents)
     };
     let exponents: Vec<_> =
         batches.par_iter().with_max_len(1).map(run).collect::<Result<_, _>>()?;
@@ -118,14 +120,19 @@ pub fn master_exponents_with(
 
 /// All Lyapunov exponents of the isolated oscillator, descending, per unit of model time.
 ///
-/// `D` tangents are carried as lanes of one dual system and re-orthogonalised at every interval (QR
+/// As many tangents as components are carried along one orbit and re-orthogonalised at every interval (QR
 /// by modified Gram–Schmidt).
 ///
 /// # Errors
 /// As [`master_exponents`].
-pub fn spectrum(model: Model, times: &Times, seed: u64) -> Result<Vec<Estimate>, DynamicsError> {
+pub fn spectrum(
+    dynamics: &dyn NodeDynamics,
+    times: &Times,
+    seed: u64,
+) -> Result<Vec<Estimate>, DynamicsError> {
     let plan = Plan::new(times)?;
-    with_oscillator!(model, oscillator => spectrum_of(oscillator, &plan, seed))
+    let mut tiles = Tiles::axes(dynamics, InstructionSet::best(), seed);
+    Ok(estimates(&plan.block_means(&mut tiles, |_| ())?, dynamics.start().len()))
 }
 
 impl Times {
@@ -165,31 +172,23 @@ impl Plan {
         self.steps_per_interval as f64 * self.step
     }
 
-    /// Runs the dual system through the transient and all blocks, handing the tangents of every
-    /// interval to `renormalise`, which gives the logarithms of their growth; returns block means of
-    /// the exponents, `[block][lane]`.
+    /// Runs tangents through the transient and all blocks, scaled anew after every interval; returns
+    /// block means of the exponents, `[block][lane]`.
     #[inline(always)]
-    fn block_means<V: Orbit, const D: usize, const L: usize>(
+    fn block_means<const L: usize>(
         &self,
-        equation: &impl Flow<Dual<V, Lanes<L>>, D>,
-        mut state: [Dual<V, Lanes<L>>; D],
-        renormalise: impl Fn(&mut [Dual<V, Lanes<L>>; D]) -> [f64; L],
+        tangents: &mut impl Growing<L>,
         progress: impl Fn(u64),
-    ) -> Result<Vec<[f64; L]>, DynamicsError>
-    where
-        Lanes<L>: Mul<V, Output = Lanes<L>>,
-    {
+    ) -> Result<Vec<[f64; L]>, DynamicsError> {
         let in_blocks = self.intervals_per_block * BLOCKS as u64;
         let mut blocks = Vec::with_capacity(BLOCKS);
         let mut growth = [0.0; L];
         for interval in 1..=self.transient_intervals + in_blocks {
-            for _ in 0..self.steps_per_interval {
-                state = rk4::step(equation, state, self.step);
-            }
-            if !state.iter().all(|component| component.value.is_bounded()) {
+            tangents.advance(self.steps_per_interval, self.step);
+            if !tangents.is_bounded() {
                 return Err(DynamicsError::Escaped { time: interval as f64 * self.interval() });
             }
-            for (sum, log) in growth.iter_mut().zip(renormalise(&mut state)) {
+            for (sum, log) in growth.iter_mut().zip(tangents.renormalise()) {
                 *sum += log;
             }
             progress(self.steps_per_interval);
@@ -207,55 +206,22 @@ impl Plan {
     }
 }
 
-fn spectrum_of<O: Oscillator<D>, const D: usize>(
-    oscillator: O,
-    plan: &Plan,
-    seed: u64,
-) -> Result<Vec<Estimate>, DynamicsError> {
-    let start = initial_states::<O, D>(1, seed)[0];
-    let state: [Dual<f64, Lanes<D>>; D] = std::array::from_fn(|c| Dual {
-        value: start[c],
-        tangent: Lanes(std::array::from_fn(|lane| f64::from(u8::from(lane == c)))),
-    });
-    // At σ = 0 the tangents are those of the isolated oscillator.
-    let (coupling, sigma) = (Coupling { from: 0, to: 0 }, Lanes([0.0; D]));
-    let equation = MasterEquation { oscillator, coupling, sigma };
-    let blocks = plan.block_means(&equation, state, orthonormalise, |_| ())?;
-    Ok(estimates(&blocks, D))
+/// Tangents that grow along their orbits, in `L` lanes.
+trait Growing<const L: usize> {
+    /// Takes orbits and tangents some steps h forward.
+    fn advance(&mut self, n_steps: u64, h: f64);
+
+    /// Whether every orbit is within [`crate::ESCAPE_RADIUS`]; a NaN is not.
+    fn is_bounded(&self) -> bool;
+
+    /// Scales the tangents to unit length, or makes them orthonormal; gives the logarithms of their
+    /// growth.
+    fn renormalise(&mut self) -> [f64; L];
 }
 
-/// Scales every lane's tangent to unit length; gives the logarithms of the lengths.
+/// The logarithm of a length, rounded alike on every machine as the platform's own need not be.
 #[inline(always)]
-fn normalise<V, const D: usize, const L: usize>(state: &mut [Dual<V, Lanes<L>>; D]) -> [f64; L] {
-    std::array::from_fn(|lane| scale_to_unit(state, lane))
-}
-
-/// Makes the lanes' tangents orthonormal in their order; gives the logarithms of the lengths that
-/// remain, the diagonal of R.
-fn orthonormalise<V, const D: usize, const L: usize>(
-    state: &mut [Dual<V, Lanes<L>>; D],
-) -> [f64; L] {
-    std::array::from_fn(|lane| {
-        for before in 0..lane {
-            let overlap: f64 = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[before]).sum();
-            for x in state.iter_mut() {
-                x.tangent.0[lane] -= overlap * x.tangent.0[before];
-            }
-        }
-        scale_to_unit(state, lane)
-    })
-}
-
-#[inline(always)]
-fn scale_to_unit<V, const D: usize, const L: usize>(
-    state: &mut [Dual<V, Lanes<L>>; D],
-    lane: usize,
-) -> f64 {
-    let length = state.iter().map(|x| x.tangent.0[lane] * x.tangent.0[lane]).sum::<f64>().sqrt();
-    for x in state.iter_mut() {
-        x.tangent.0[lane] /= length;
-    }
-    // The platform's own logarithm may round differently on another machine.
+fn log(length: f64) -> f64 {
     libm::log(length)
 }
 
@@ -267,7 +233,7 @@ fn estimates<const L: usize>(blocks: &[[f64; L]], lanes: usize) -> Vec<Estimate>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Lorenz, Rossler};
+    use crate::{Lorenz, Model, Rossler};
 
     const TIMES: Times = Times { step: 0.01, transient: 100.0, average: 5000.0, renormalise: 0.5 };
     const QUIET: Progress<'static> = &|_| ();
@@ -285,9 +251,9 @@ mod tests {
         // z into z of Lorenz at a stable fixed point: r < 1 makes the origin attract, where the
         // Jacobian is triangular and the z direction decays at b + σ, apart from x and y.
         let model = Model::Lorenz(Lorenz { alpha: 1.0, r: 0.0, b: 0.5 });
-        let z = Coupling { from: 2, to: 2 };
+        let z = Coupling::pair(2, 2);
         let tangents = [0.0, 0.25, 2.0].map(|sigma| Tangent { sigma, seed: 1 });
-        let exponents = master_exponents(model, z, &TIMES, &tangents, QUIET).unwrap();
+        let exponents = master_exponents(&model, &z, &TIMES, &tangents, QUIET).unwrap();
         // At r = 0, α = 1 the x–y block has the double rate −1; the slowest rate wins.
         for (exponent, expected) in exponents.iter().zip([-0.5, -0.75, -1.0]) {
             assert!((exponent.mean - expected).abs() < 2e-3, "{exponent:?} against {expected}");
@@ -297,7 +263,7 @@ mod tests {
     #[test]
     fn lyapunov_exponents_of_lorenz_sum_to_its_divergence() {
         let lorenz = Lorenz::default();
-        let exponents = spectrum(Model::Lorenz(lorenz), &TIMES, 1).unwrap();
+        let exponents = spectrum(&Model::Lorenz(lorenz), &TIMES, 1).unwrap();
         let sum: f64 = exponents.iter().map(|e| e.mean).sum();
         let divergence = -(lorenz.alpha + 1.0 + lorenz.b);
         assert!((sum - divergence).abs() < 1e-3, "{sum} against {divergence}");
@@ -307,10 +273,10 @@ mod tests {
     #[test]
     fn the_largest_exponent_agrees_between_one_tangent_and_qr() {
         for model in [Model::Lorenz(Lorenz::default()), Model::Rossler(Rossler::default())] {
-            let coupling = Coupling { from: 0, to: 0 };
+            let coupling = Coupling::pair(0, 0);
             let tangent = [Tangent { sigma: 0.0, seed: 7 }];
-            let one = master_exponents(model, coupling, &TIMES, &tangent, QUIET).unwrap()[0];
-            let qr = spectrum(model, &TIMES, 8).unwrap()[0];
+            let one = master_exponents(&model, &coupling, &TIMES, &tangent, QUIET).unwrap()[0];
+            let qr = spectrum(&model, &TIMES, 8).unwrap()[0];
             within(one, qr.mean, 4.0 * qr.standard_error);
         }
     }
@@ -318,14 +284,14 @@ mod tests {
     #[test]
     fn exponents_have_the_same_bits_in_any_lane() {
         let model = Model::Lorenz(Lorenz::default());
-        let coupling = Coupling { from: 0, to: 1 };
+        let coupling = Coupling::pair(0, 1);
         let times = Times { average: 100.0, ..TIMES };
         let tangents: Vec<_> =
             (0..11u32).map(|k| Tangent { sigma: f64::from(k), seed: u64::from(k % 3) }).collect();
-        let together = master_exponents(model, coupling, &times, &tangents, QUIET).unwrap();
+        let together = master_exponents(&model, &coupling, &times, &tangents, QUIET).unwrap();
         let alone: Vec<_> = tangents
             .iter()
-            .map(|&t| master_exponents(model, coupling, &times, &[t], QUIET).unwrap()[0])
+            .map(|&t| master_exponents(&model, &coupling, &times, &[t], QUIET).unwrap()[0])
             .collect();
         assert_eq!(together, alone);
     }
@@ -333,12 +299,12 @@ mod tests {
     #[test]
     fn exponents_have_the_same_bits_for_every_instruction_set() {
         let model = Model::Rossler(Rossler::default());
-        let (coupling, times) = (Coupling { from: 0, to: 0 }, Times { average: 100.0, ..TIMES });
+        let (coupling, times) = (Coupling::pair(0, 0), Times { average: 100.0, ..TIMES });
         let tangents: Vec<_> = (0..20u32)
             .map(|k| Tangent { sigma: f64::from(k) / 4.0, seed: u64::from(k.saturating_sub(15)) })
             .collect();
         let exponents =
-            |set| master_exponents_with(set, model, coupling, &times, &tangents, QUIET).unwrap();
+            |set| master_exponents_with(set, &model, &coupling, &times, &tangents, QUIET).unwrap();
         let baseline = exponents(InstructionSet::Baseline);
         for set in InstructionSet::available() {
             assert_eq!(exponents(set), baseline, "{}", set.name());
@@ -349,13 +315,13 @@ mod tests {
     fn an_orbit_that_escapes_is_an_error_with_its_time() {
         // With c < 0 the Rössler oscillator has no bounded attractor.
         let model = Model::Rossler(Rossler { a: 0.5, b: 0.2, c: -9.0 });
-        let error = spectrum(model, &TIMES, 1).unwrap_err();
+        let error = spectrum(&model, &TIMES, 1).unwrap_err();
         assert!(matches!(error, DynamicsError::Escaped { time } if time > 0.0), "{error:?}");
     }
 
     #[test]
     fn times_that_make_no_sense_are_refused() {
-        let refused = |times| spectrum(Model::Lorenz(Lorenz::default()), &times, 1).unwrap_err();
+        let refused = |times| spectrum(&Model::Lorenz(Lorenz::default()), &times, 1).unwrap_err();
         assert_eq!(refused(Times { step: -0.01, ..TIMES }), DynamicsError::BadStep { step: -0.01 });
         assert_eq!(
             refused(Times { average: 0.0, ..TIMES }),

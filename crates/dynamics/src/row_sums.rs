@@ -8,21 +8,21 @@
 //! Source of the windows: M. Kreutzer et al., SIAM J. Sci. Comput. 36, C401 (2014), SELL-C-σ.
 
 use crate::Lanes;
-use crate::kernel::WIDTH;
 use crate::links::{Links, Row};
+use crate::stage::{TILE, Tile};
 
 /// Nodes that are placed in order of their number of terms.
 const WINDOW: usize = 256;
 
 /// The rows of a network of `L` lanes, `R` side by side.
 ///
-/// Signals are laid out `[place][lane]`: first the nodes in runs of [`WIDTH`] numbers, then the place
+/// Signals are laid out `[place][lane]`: first the nodes in runs of [`TILE`] numbers, then the place
 /// that is always 0, then the shared sums.
 pub(crate) struct RowSums<const L: usize, const R: usize> {
     /// Place of each node.
     places: Vec<u32>,
     n_runs: usize,
-    /// `WIDTH / L / R` for each run.
+    /// `TILE / L / R` for each run.
     groups: Vec<Group<R>>,
     /// Place of each term, group by group.
     terms: Vec<[u32; R]>,
@@ -44,7 +44,7 @@ struct Group<const R: usize> {
 }
 
 impl<const L: usize, const R: usize> RowSums<L, R> {
-    const NODES_IN_RUN: usize = WIDTH / L;
+    const NODES_IN_RUN: usize = TILE / L;
     const GROUPS_IN_RUN: usize = Self::NODES_IN_RUN / R;
 
     pub(crate) fn new(links: &Links) -> Self {
@@ -91,9 +91,9 @@ impl<const L: usize, const R: usize> RowSums<L, R> {
         self.n_runs
     }
 
-    /// Numbers that the signals take, a multiple of [`WIDTH`].
+    /// Numbers that the signals take, a multiple of [`TILE`].
     pub(crate) fn n_signals(&self) -> usize {
-        (self.n_runs * WIDTH + (1 + self.shared.len()) * L).next_multiple_of(WIDTH)
+        (self.n_runs * TILE + (1 + self.shared.len()) * L).next_multiple_of(TILE)
     }
 
     /// Place of each node, in the order of nodes.
@@ -111,10 +111,9 @@ impl<const L: usize, const R: usize> RowSums<L, R> {
         }
     }
 
-    /// The inputs of the nodes of a run.
+    /// Puts the inputs of the nodes of a run.
     #[inline(always)]
-    pub(crate) fn inputs(&self, run: usize, signals: &[[f64; L]]) -> [f64; WIDTH] {
-        let mut inputs = [0.0; WIDTH];
+    pub(crate) fn put_inputs(&self, run: usize, signals: &[[f64; L]], inputs: &mut Tile) {
         let (of_nodes, _) = inputs.as_chunks_mut::<L>();
         for group in 0..Self::GROUPS_IN_RUN {
             let sums = self.group(run * Self::GROUPS_IN_RUN + group, signals);
@@ -122,7 +121,6 @@ impl<const L: usize, const R: usize> RowSums<L, R> {
                 of_nodes[group * R + r] = sums[r].0;
             }
         }
-        inputs
     }
 
     #[inline(always)]
@@ -178,7 +176,10 @@ mod tests {
             signals[place as usize] = *x;
         }
         rows.share(&mut signals);
-        let runs: Vec<_> = (0..rows.n_runs()).map(|run| rows.inputs(run, &signals)).collect();
+        let mut runs = vec![[0.0; TILE]; rows.n_runs()];
+        for (run, inputs) in runs.iter_mut().enumerate() {
+            rows.put_inputs(run, &signals, inputs);
+        }
         let placed = runs.as_flattened().as_chunks().0;
         rows.places().iter().map(|&place| placed[place as usize]).collect()
     }

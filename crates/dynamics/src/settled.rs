@@ -4,8 +4,7 @@ use rayon::prelude::*;
 
 use crate::error::{check_times, whole};
 use crate::isolated_orbit::IsolatedOrbit;
-use crate::oscillators::with_oscillator;
-use crate::{DynamicsError, Model, Oscillator};
+use crate::{DynamicsError, NodeDynamics};
 
 /// The states of isolated oscillators after this time, component by component, in the order of their
 /// seeds.
@@ -19,24 +18,22 @@ use crate::{DynamicsError, Model, Oscillator};
 /// [`DynamicsError::BadStep`] and [`DynamicsError::BadTime`] for times that make no sense;
 /// [`DynamicsError::Escaped`] when an orbit leaves the ball of radius [`crate::ESCAPE_RADIUS`].
 pub fn settled(
-    model: Model,
+    dynamics: &dyn NodeDynamics,
     step: f64,
     time: f64,
     seeds: &[u64],
 ) -> Result<Vec<Vec<f64>>, DynamicsError> {
     check_times(step, &[("time", time)], f64::INFINITY)?;
-    with_oscillator!(model, oscillator => {
-        seeds.par_iter().map(|&seed| of(oscillator, step, whole(time / step), seed)).collect()
-    })
+    seeds.par_iter().map(|&seed| of(dynamics, step, whole(time / step), seed)).collect()
 }
 
-fn of<O: Oscillator<D>, const D: usize>(
-    oscillator: O,
+fn of(
+    dynamics: &dyn NodeDynamics,
     step: f64,
     n_steps: u64,
     seed: u64,
 ) -> Result<Vec<f64>, DynamicsError> {
-    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
+    let mut orbit = IsolatedOrbit::begin(dynamics, step, seed);
     for _ in 0..n_steps {
         orbit.advance();
         orbit.bounded()?;

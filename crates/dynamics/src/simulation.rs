@@ -2,6 +2,7 @@
 //!
 //! What is asked for and what comes out; the step itself is in [`crate::kernel`].
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -13,10 +14,9 @@ use crate::integrators::{Method, adaptive};
 use crate::links::Links;
 use crate::observables::{Errors, Observables};
 use crate::observer::Counting;
-use crate::oscillators::with_oscillator;
 use crate::statistics::BLOCKS;
 use crate::{
-    Coupling, DynamicsError, InstructionSet, Model, Observer, Oscillator, Progress, Snapshot,
+    Coupling, DynamicsError, InstructionSet, NodeDynamics, Observer, Progress, Snapshot,
     SparseMatrix, Start,
 };
 
@@ -77,7 +77,7 @@ pub struct Run {
 #[derive(Clone, Debug)]
 pub struct Simulation<'a> {
     /// Dynamics F of the isolated node.
-    pub model: Model,
+    pub dynamics: Arc<dyn NodeDynamics>,
     /// Coupling function H.
     pub coupling: Coupling,
     /// Coupling matrix W, shape (N, N).
@@ -132,19 +132,15 @@ impl Simulation<'_> {
         let replicas: Vec<Replica> = starts.iter().map(|start| start.replica).collect();
         let starts: Vec<Numbered> = starts.into_iter().enumerate().collect();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
-        with_oscillator!(self.model, oscillator => {
-            let told = match self.method {
-                Method::Rk4 => self.run_in_lanes(oscillator, starts, observer),
-                Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
-                    let outcome =
-                        adaptive::run(oscillator, self, method, (number, start), observer)?;
-                    Some((number, outcome))
-                }),
-            };
-            for (number, outcome) in told.ok_or(DynamicsError::Cancelled)? {
-                outcomes[number] = Some(outcome);
-            }
-        });
+        let told = match self.method {
+            Method::Rk4 => self.run_in_lanes(starts, observer),
+            Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
+                Some((number, adaptive::run(self, method, (number, start), observer)?))
+            }),
+        };
+        for (number, outcome) in told.ok_or(DynamicsError::Cancelled)? {
+            outcomes[number] = Some(outcome);
+        }
         let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
             replica,
             outcome: outcome.expect("every replica is in one batch"),
@@ -159,24 +155,22 @@ impl Simulation<'_> {
         let transient = self.schedule.transient_samples();
         let n_sums = if snapshot.sample > transient { self.observables.n_sums(n_nodes) } else { 0 };
         (1..transient + self.schedule.samples()).contains(&snapshot.sample)
-            && snapshot.state.len() == self.model.components().len() * n_nodes
+            && snapshot.state.len() == self.dynamics.start().len() * n_nodes
             && snapshot.sums.len() == n_sums
     }
 
     /// Batches of lanes, as many as keep all threads busy; none when the observer wanted to stop.
-    fn run_in_lanes<O: Oscillator<D>, const D: usize>(
+    fn run_in_lanes(
         &self,
-        oscillator: O,
         starts: Vec<Numbered>,
         observer: &dyn Observer,
     ) -> Option<Vec<(usize, Outcome)>> {
         let links = Links::new(self.matrix);
         macro_rules! run {
             ($starts:ident in $lanes:literal lanes, $rows:literal rows) => {
-                self.instruction_set.run(Batch::<O, D, $lanes, $rows> {
+                self.instruction_set.run(Batch::<$lanes, $rows> {
                     simulation: self,
                     links: &links,
-                    oscillator,
                     starts: $starts,
                     observer,
                 })

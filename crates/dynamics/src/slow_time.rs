@@ -12,8 +12,7 @@
 
 use crate::error::check_times;
 use crate::isolated_orbit::IsolatedOrbit;
-use crate::oscillators::with_oscillator;
-use crate::{DynamicsError, Model, Oscillator};
+use crate::{DynamicsError, NodeDynamics};
 
 /// The stretch of orbit is this many slow times long, unless these are too long for it.
 const CYCLES: f64 = 20.0;
@@ -35,22 +34,13 @@ const SETTLED: f64 = 0.8;
 /// [`DynamicsError::BadStep`] for a step that makes no sense; [`DynamicsError::Escaped`] when the orbit
 /// leaves the ball of radius [`crate::ESCAPE_RADIUS`].
 pub fn slow_time(
-    model: Model,
+    dynamics: &dyn NodeDynamics,
     component: usize,
     step: f64,
     seed: u64,
 ) -> Result<Option<f64>, DynamicsError> {
     check_times(step, &[], f64::INFINITY)?;
-    with_oscillator!(model, oscillator => of(oscillator, component, step, seed))
-}
-
-fn of<O: Oscillator<D>, const D: usize>(
-    oscillator: O,
-    component: usize,
-    step: f64,
-    seed: u64,
-) -> Result<Option<f64>, DynamicsError> {
-    let mut orbit = IsolatedOrbit::begin(oscillator, step, seed);
+    let mut orbit = IsolatedOrbit::begin(dynamics, step, seed);
     let mut n_steps = STRETCH[0];
     loop {
         let mut stretch = Vec::with_capacity(n_steps);
@@ -98,10 +88,10 @@ fn longest_interval(values: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{HindmarshRose, Lorenz, Rossler};
+    use crate::{HindmarshRose, Lorenz, Model, Rossler};
 
     fn slow(model: Model) -> Option<f64> {
-        slow_time(model, 0, 0.01, 1).unwrap()
+        slow_time(&model, 0, 0.01, 1).unwrap()
     }
 
     #[test]
@@ -137,7 +127,7 @@ mod tests {
     #[test]
     fn an_orbit_that_escapes_is_an_error() {
         let model = Model::Rossler(Rossler { a: 0.5, b: 0.2, c: -9.0 });
-        let escaped = slow_time(model, 0, 0.01, 1);
+        let escaped = slow_time(&model, 0, 0.01, 1);
         assert!(matches!(escaped, Err(DynamicsError::Escaped { .. })), "{escaped:?}");
     }
 }

@@ -1,5 +1,6 @@
 //! Simulations of whole networks, through the public interface.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::{
@@ -9,7 +10,9 @@ use dynamics::{
 };
 use proptest::prelude::*;
 
-const X_INTO_Y: Coupling = Coupling { from: 0, to: 1 };
+fn x_into_y() -> Coupling {
+    Coupling::pair(0, 1)
+}
 const SCHEDULE: Schedule = Schedule { step: 0.01, transient: 50.0, average: 200.0, stride: 10 };
 
 /// The laplacian coupling matrix of links given as (i, j, weight).
@@ -34,8 +37,8 @@ fn six_node() -> SparseMatrix {
 
 fn lorenz_network(matrix: &SparseMatrix) -> Simulation<'_> {
     Simulation {
-        model: Model::Lorenz(Lorenz::default()),
-        coupling: X_INTO_Y,
+        dynamics: Arc::new(Model::Lorenz(Lorenz::default())),
+        coupling: x_into_y(),
         matrix,
         method: Method::Rk4,
         schedule: SCHEDULE,
@@ -97,8 +100,8 @@ fn bits_are_the_same_on_every_machine() {
     let matrix = six_node();
     let lorenz = lorenz_network(&matrix);
     let neuron = Simulation {
-        model: Model::HindmarshRose(HindmarshRose::default()),
-        coupling: Coupling { from: 0, to: 0 },
+        dynamics: Arc::new(Model::HindmarshRose(HindmarshRose::default())),
+        coupling: Coupling::pair(0, 0),
         ..lorenz.clone()
     };
     let digests = [&lorenz, &neuron].map(|s| digest(&run(s, &replicas(&[0.3, 2.4], 2))));
@@ -169,8 +172,8 @@ fn diffusion_of_a_damped_oscillator_decays_at_the_known_rate() {
     // |z_1 − z_2|(0) (1 − exp(−(b + 2ε)T)) / (b + 2ε)T once x and y have gone.
     let matrix = laplacian(2, &[(0, 1, 1.0)]);
     let simulation = Simulation {
-        model: Model::Lorenz(Lorenz { alpha: 1.0, r: 0.0, b: 0.001 }),
-        coupling: Coupling { from: 2, to: 2 },
+        dynamics: Arc::new(Model::Lorenz(Lorenz { alpha: 1.0, r: 0.0, b: 0.001 })),
+        coupling: Coupling::pair(2, 2),
         schedule: Schedule { step: 0.01, transient: 30.0, average: 400.0, stride: 1 },
         observables: Observables { component: 2, pairs: true, ..Observables::default() },
         ..lorenz_network(&matrix)
@@ -232,8 +235,8 @@ fn an_orbit_that_escapes_is_an_outcome_with_its_time_and_leaves_the_others_alone
     // Beyond its bounded window x-to-x coupling drives two Rössler oscillators to infinity.
     let matrix = laplacian(2, &[(0, 1, 1.0)]);
     let simulation = Simulation {
-        model: Model::Rossler(Rossler::default()),
-        coupling: Coupling { from: 0, to: 0 },
+        dynamics: Arc::new(Model::Rossler(Rossler::default())),
+        coupling: Coupling::pair(0, 0),
         ..lorenz_network(&matrix)
     };
     let runs = run(&simulation, &replicas(&[0.5, -5.0, 0.5], 1));

@@ -1,6 +1,7 @@
 //! Simulations that are followed, stopped and resumed.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -28,8 +29,8 @@ fn ring(n_nodes: usize, weight: impl Fn(usize) -> f64) -> SparseMatrix {
 /// at every tenth.
 fn lorenz(matrix: &SparseMatrix) -> Simulation<'_> {
     Simulation {
-        model: Model::Lorenz(Lorenz::default()),
-        coupling: Coupling { from: 0, to: 1 },
+        dynamics: Arc::new(Model::Lorenz(Lorenz::default())),
+        coupling: Coupling::pair(0, 1),
         matrix,
         method: Method::Rk4,
         schedule: Schedule { step: 0.01, transient: 5.0, average: 10.0, stride: 10 },
@@ -233,8 +234,8 @@ fn every_replica_is_told_once_as_its_batch_ends_and_one_that_escapes_as_it_does(
     // Negative coupling drives two Rössler oscillators to infinity.
     let matrix = ring(2, |_| 1.0);
     let simulation = Simulation {
-        model: Model::Rossler(Rossler::default()),
-        coupling: Coupling { from: 0, to: 0 },
+        dynamics: Arc::new(Model::Rossler(Rossler::default())),
+        coupling: Coupling::pair(0, 0),
         observables: Observables { pairs: true, ..Observables::default() },
         ..lorenz(&matrix)
     };
@@ -259,7 +260,7 @@ fn a_coupling_that_cannot_be_integrated_is_an_outcome_and_leaves_the_others_alon
     let matrix = ring(2, |_| 1.0);
     let simulation = Simulation {
         method: dopri5(),
-        coupling: Coupling { from: 0, to: 0 },
+        coupling: Coupling::pair(0, 0),
         observables: Observables { pairs: true, ..Observables::default() },
         ..lorenz(&matrix)
     };

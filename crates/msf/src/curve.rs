@@ -1,7 +1,9 @@
 //! Λ(σ) on a grid, with standard errors, and what follows from it.
 
+use std::sync::Arc;
+
 use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
-use dynamics::{Coupling, Estimate, InstructionSet, Model, Progress};
+use dynamics::{Coupling, Estimate, InstructionSet, NodeDynamics, Progress};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::step::{Step, is_certain, with_shift};
@@ -14,10 +16,10 @@ const ISOLATED_ORBITS: usize = 16;
 const HALVED_ORBITS: usize = 8;
 
 /// An oscillator with the function through which it is coupled.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug)]
 pub struct Node {
     /// Dynamics F.
-    pub model: Model,
+    pub dynamics: Arc<dyn NodeDynamics>,
     /// Coupling function H.
     pub coupling: Coupling,
 }
@@ -142,8 +144,8 @@ impl Work<'_> {
         if step == Step::Halved {
             times.step *= 0.5;
         }
-        let (model, coupling) = (node.model, node.coupling);
-        Ok(master_exponents_with(set, model, coupling, &times, tangents, self.progress)?)
+        let (dynamics, coupling) = (node.dynamics.as_ref(), &node.coupling);
+        Ok(master_exponents_with(set, dynamics, coupling, &times, tangents, self.progress)?)
     }
 
     /// What an average over this time does not know of an exponent in any case: the length of a
@@ -159,7 +161,7 @@ impl Work<'_> {
         }
         let seeds: Vec<u64> = Seeds::new(self.request.seed).orbits().collect();
         let Times { step, transient, .. } = self.request.times;
-        rest::counts(self.node.model, (step, transient), curve.isolated.mean, &seeds)
+        rest::counts(self.node.dynamics.as_ref(), (step, transient), curve.isolated.mean, &seeds)
     }
 
     /// The curve of the orbits that the seeds give, and a σ at which these differ in kind.

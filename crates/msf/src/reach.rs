@@ -26,7 +26,8 @@ pub fn reach(
 ) -> Result<f64, MsfError> {
     let sigma: Vec<f64> = (1..=POWERS).rev().map(|power| 0.5f64.powi(power) / times.step).collect();
     let tangents: Vec<Tangent> = sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
-    let lambda = master_exponents(node.model, node.coupling, times, &tangents, progress)?;
+    let lambda =
+        master_exponents(node.dynamics.as_ref(), &node.coupling, times, &tangents, progress)?;
     Ok(last_change(&sigma, &lambda).map_or(sigma[sigma.len() - 1], |sigma| 2.0 * sigma))
 }
 
@@ -44,6 +45,8 @@ fn last_change(sigma: &[f64], lambda: &[Estimate]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use dynamics::{Coupling, HindmarshRose, Lorenz, Model, Rossler};
 
     use super::*;
@@ -51,7 +54,8 @@ mod tests {
     const TIMES: Times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
 
     fn reach_of(model: Model, from: usize, to: usize) -> f64 {
-        reach(&Node { model, coupling: Coupling { from, to } }, &TIMES, 1, &|_| ()).unwrap()
+        let node = Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) };
+        reach(&node, &TIMES, 1, &|_| ()).unwrap()
     }
 
     #[test]

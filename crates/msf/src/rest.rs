@@ -2,7 +2,7 @@
 //! forgets small disturbances, and not that there is one state only: the Lorenz system with 1 < r < 24
 //! has two fixed points with the same exponents, and nodes at different ones are never equal.
 
-use dynamics::{Model, settled};
+use dynamics::{NodeDynamics, settled};
 
 use crate::MsfError;
 
@@ -15,13 +15,13 @@ const SAME: f64 = 1e-6;
 
 /// How many oscillators, of one for each seed, have come to each state, the most frequent first.
 pub(crate) fn counts(
-    model: Model,
+    dynamics: &dyn NodeDynamics,
     (step, transient): (f64, f64),
     isolated: f64,
     seeds: &[u64],
 ) -> Result<Vec<usize>, MsfError> {
     let time = transient + DECAYS / isolated.abs();
-    Ok(alike(&settled(model, step, time, seeds)?))
+    Ok(alike(&settled(dynamics, step, time, seeds)?))
 }
 
 /// Sizes of the groups of equal states, the largest first.
@@ -42,7 +42,7 @@ fn alike(states: &[Vec<f64>]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::Lorenz;
+    use dynamics::{Lorenz, Model};
 
     use super::*;
 
@@ -57,7 +57,7 @@ mod tests {
         let seeds: Vec<u64> = (1..=16).collect();
         let of = |r, slowest| {
             let model = Model::Lorenz(Lorenz { r, ..Lorenz::default() });
-            counts(model, (0.01, 100.0), slowest, &seeds).unwrap()
+            counts(&model, (0.01, 100.0), slowest, &seeds).unwrap()
         };
         // Slowest rates: of x³ + (a+b+1)x² + b(r+a)x + 2ab(r−1) at r = 10; of the origin at r = 0.5.
         let two = of(10.0, -0.59);

@@ -2,16 +2,21 @@
 //!
 //! The short forms run always; EIGENSYNC_LONG_TESTS=1 runs them long enough to test the numbers.
 
+use std::sync::Arc;
+
 use dynamics::lyapunov::Times;
 use dynamics::{Coupling, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{End, Isolated, MasterStability, Node, Refinement, Request, Zero, master_stability};
 
-const LORENZ: Node =
-    Node { model: Model::Lorenz(Lorenz { alpha: 10.0, r: 35.0, b: 8.0 / 3.0 }), coupling: X_TO_Y };
-const X_TO_Y: Coupling = Coupling { from: 0, to: 1 };
-const X_TO_X: Coupling = Coupling { from: 0, to: 0 };
+const LORENZ: Model = Model::Lorenz(Lorenz { alpha: 10.0, r: 35.0, b: 8.0 / 3.0 });
+const X_TO_Y: [usize; 2] = [0, 1];
+const X_TO_X: [usize; 2] = [0, 0];
 
-fn compute(node: Node, [from, to]: [f64; 2], points: u32, average: f64) -> MasterStability {
+fn node(model: Model, [from, to]: [usize; 2]) -> Node {
+    Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) }
+}
+
+fn compute(node: &Node, [from, to]: [f64; 2], points: u32, average: f64) -> MasterStability {
     let step = (to - from) / f64::from(points - 1);
     let request = Request {
         sigma: (0..points).map(|k| from + step * f64::from(k)).collect(),
@@ -20,7 +25,7 @@ fn compute(node: Node, [from, to]: [f64; 2], points: u32, average: f64) -> Maste
         seed: 1,
         instruction_set: InstructionSet::best(),
     };
-    master_stability(&node, &request, &|_| ()).expect("the request is sound")
+    master_stability(node, &request, &|_| ()).expect("the request is sound")
 }
 
 fn long() -> bool {
@@ -39,7 +44,7 @@ fn check_edge(msf: &MasterStability, index: usize, expected: f64, slack: f64) {
 
 #[test]
 fn lorenz_x_into_y_is_stable_beyond_8_17() {
-    let msf = compute(LORENZ, [0.0, 12.0], 13, if long() { 2e4 } else { 1e3 });
+    let msf = compute(&node(LORENZ, X_TO_Y), [0.0, 12.0], 13, if long() { 2e4 } else { 1e3 });
     assert_eq!(zeros(&msf).len(), 1, "{:?}", msf.stable);
     check_edge(&msf, 0, 8.17, 0.01);
     assert!((msf.isolated.mean - 1.050).abs() < 0.002 + 4.0 * msf.isolated.standard_error);
@@ -48,8 +53,8 @@ fn lorenz_x_into_y_is_stable_beyond_8_17() {
 
 #[test]
 fn rossler_x_into_x_is_stable_in_a_bounded_window() {
-    let node = Node { model: Model::Rossler(Rossler::default()), coupling: X_TO_X };
-    let msf = compute(node, [0.0, 6.0], 13, if long() { 2e4 } else { 1e3 });
+    let node = node(Model::Rossler(Rossler::default()), X_TO_X);
+    let msf = compute(&node, [0.0, 6.0], 13, if long() { 2e4 } else { 1e3 });
     assert_eq!(zeros(&msf).len(), 2, "{:?}", msf.stable);
     check_edge(&msf, 0, 0.187, 0.001);
     check_edge(&msf, 1, 4.61, 0.02);
@@ -62,8 +67,8 @@ fn hindmarsh_rose_x_into_x_is_stable_beyond_0_943() {
         eprintln!("skipped: set EIGENSYNC_LONG_TESTS=1 (about two minutes)");
         return;
     }
-    let node = Node { model: Model::HindmarshRose(HindmarshRose::default()), coupling: X_TO_X };
-    let msf = compute(node, [0.0, 1.6], 9, 2e4);
+    let node = node(Model::HindmarshRose(HindmarshRose::default()), X_TO_X);
+    let msf = compute(&node, [0.0, 1.6], 9, 2e4);
     assert_eq!(zeros(&msf).len(), 1, "{:?}", msf.stable);
     check_edge(&msf, 0, 0.943, 0.003);
     assert!((msf.isolated.mean - 0.0128).abs() < 0.0002 + 4.0 * msf.isolated.standard_error);
@@ -73,13 +78,13 @@ fn hindmarsh_rose_x_into_x_is_stable_beyond_0_943() {
 fn the_curve_does_not_depend_on_the_number_of_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| compute(LORENZ, [6.0, 10.0], 5, 100.0))
+        pool.install(|| compute(&node(LORENZ, X_TO_Y), [6.0, 10.0], 5, 100.0))
     };
     assert_eq!(on(1), on(2));
 }
 
 /// Shorter orbits, a tenth as many points: what is proved here does not need more.
-fn quick(model: Model, coupling: Coupling, sigma: Vec<f64>) -> MasterStability {
+fn quick(model: Model, pair: [usize; 2], sigma: Vec<f64>) -> MasterStability {
     let request = Request {
         sigma,
         times: Times { step: 0.01, transient: 200.0, average: 1000.0, renormalise: 0.5 },
@@ -87,11 +92,7 @@ fn quick(model: Model, coupling: Coupling, sigma: Vec<f64>) -> MasterStability {
         seed: 1,
         instruction_set: InstructionSet::best(),
     };
-    master_stability(&Node { model, coupling }, &request, &|_| ()).expect("the request is sound")
-}
-
-const fn from_to(from: usize, to: usize) -> Coupling {
-    Coupling { from, to }
+    master_stability(&node(model, pair), &request, &|_| ()).expect("the request is sound")
 }
 
 #[test]
@@ -120,7 +121,7 @@ fn a_grid_that_starts_above_a_window_finds_the_window() {
 
 #[test]
 fn a_grid_of_cells_thirty_times_as_wide_as_sigma_c_finds_it() {
-    let msf = quick(LORENZ.model, X_TO_Y, vec![0.0, 250.0, 500.0]);
+    let msf = quick(LORENZ, X_TO_Y, vec![0.0, 250.0, 500.0]);
     let zero = msf.stable.sigma_c().expect("the set is sigma > sigma_c");
     assert!(zero.refined, "{zero:?}");
     assert!((zero.sigma - 8.17).abs() < 0.01 + 4.0 * zero.standard_error, "{zero:?}");
@@ -145,7 +146,7 @@ fn nodes_at_rest_in_two_different_states_are_not_equal_without_coupling() {
     assert_eq!(msf.stable.intervals[0].from, End::Origin { included: false });
     assert!(!msf.stable.contains(0.0) && msf.stable.contains(1e-9));
     // z into y tells them apart by Λ too; below r = 1 there is one, the origin.
-    let apart = quick(lorenz, from_to(2, 1), vec![0.0, 5.0, 10.0, 15.0]);
+    let apart = quick(lorenz, [2, 1], vec![0.0, 5.0, 10.0, 15.0]);
     assert_eq!(apart.rests.len(), 2);
     assert!(
         !apart.stable.contains(0.0) && apart.attractors.iter().all(|a| !a.stable.contains(0.0))
@@ -159,7 +160,7 @@ fn nodes_at_rest_in_two_different_states_are_not_equal_without_coupling() {
 fn a_limit_cycle_that_any_coupling_damps_has_no_zero() {
     // Λ(0) = 0; y into y damps at every σ > 0, by Floquet multipliers.
     let lorenz = Model::Lorenz(Lorenz { alpha: 10.0, r: 160.0, b: 8.0 / 3.0 });
-    let msf = quick(lorenz, from_to(1, 1), vec![0.0, 10.0, 20.0]);
+    let msf = quick(lorenz, [1, 1], vec![0.0, 10.0, 20.0]);
     assert_eq!(msf.state, Isolated::Periodic);
     assert_eq!(zeros(&msf), [], "{:?}", msf.stable);
     assert!(msf.stable.intervals[0].lower() < 1.0, "{:?}", msf.stable);
@@ -169,7 +170,7 @@ fn a_limit_cycle_that_any_coupling_damps_has_no_zero() {
 fn orbits_on_two_fixed_points_give_a_zero_each_and_no_mean_of_both() {
     // z into y tells the two fixed points of Lorenz at r = 10 apart: Λ = 0 at 4.899 and at 8.022.
     let lorenz = Model::Lorenz(Lorenz { alpha: 10.0, r: 10.0, b: 8.0 / 3.0 });
-    let msf = quick(lorenz, from_to(2, 1), vec![0.0, 5.0, 10.0, 15.0]);
+    let msf = quick(lorenz, [2, 1], vec![0.0, 5.0, 10.0, 15.0]);
     let mut ends: Vec<f64> =
         msf.attractors.iter().flat_map(|a| a.stable.zeros()).map(|zero| zero.sigma).collect();
     ends.sort_by(f64::total_cmp);

@@ -7,6 +7,7 @@ use dynamics::{Adaptive, AdaptiveOrder, Method};
 use spectra::Spectrum;
 
 use crate::drawing;
+use crate::output::one_line;
 use crate::plan::{Memory, Plan, Sweep};
 use crate::spec::{FigureKind, MatrixKind};
 use crate::table::{four_digits, two_digits};
@@ -38,15 +39,15 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
 pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
     let spectrum = spectrum.real_modes();
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
-    let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate().skip(n_zero);
-    let mut lost = modes.filter(|(_, (lambda, residual))| **residual > CERTAIN * lambda.abs());
-    let Some((mode, (lambda, residual))) = lost.next() else { return };
+    let modes = spectrum.eigenvalues.iter().enumerate().skip(n_zero);
+    let mut lost = modes.filter(|(mode, lambda)| spectrum.error(*mode) > CERTAIN * lambda.abs());
+    let Some((mode, lambda)) = lost.next() else { return };
     let message = format!(
         "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
          the strongest are lost in rounding",
         mode + 1,
         four_digits(*lambda),
-        two_digits(*residual),
+        two_digits(spectrum.error(mode)),
         lost.count()
     );
     warnings.add("eigenvalues", message);
@@ -56,7 +57,7 @@ pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
 pub fn describe(plan: &Plan) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
-        writeln!(text, "{name:<12} {value}").expect("a string takes every line");
+        writeln!(text, "{name:<12} {}", one_line(&value)).expect("a string takes every line");
     };
     let (network, experiment) = (&plan.network, &plan.experiment);
     line("experiment", format!("{}: {}", plan.id, experiment.title));

@@ -1,11 +1,14 @@
 //! Claims: what the source says, what was obtained, and the verdict.
 
 mod clusters;
+mod number;
 mod numbers;
+mod obtained;
 
 use std::fmt;
 
 pub use clusters::labelled;
+use number::Number;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -25,6 +28,10 @@ pub struct Claim {
     /// a step of the sweep if that is larger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<f64>,
+    /// How many runs a simulated claim stands on; there only where these are not all of the seeds, or
+    /// where one is all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs: Option<Runs>,
     /// Whether the zeros of Λ behind a number are all known as well as was asked for; there only where
     /// they are not.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -34,6 +41,22 @@ pub struct Claim {
     /// Why the tolerance is what it is, why a difference is known, or why there is no verdict.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub reason: String,
+}
+
+/// Runs that came to their end, at the ε of a claim at which they are fewest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Runs {
+    pub bounded: usize,
+    pub of: usize,
+}
+
+impl fmt::Display for Runs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self { bounded: 1, of: 1 } => f.write_str("of one run"),
+            Self { bounded, of } => write!(f, "over {bounded} of {of} runs"),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -161,6 +184,7 @@ impl Judge<'_> {
             paper,
             obtained,
             uncertainty: self.uncertainty(),
+            runs: self.runs().filter(|runs| runs.bounded < runs.of || runs.of == 1),
             refined: self.is_unrefined().then_some(false),
             tolerance,
             verdict,
@@ -182,6 +206,43 @@ impl Judge<'_> {
             }
             _ => false,
         }
+    }
+
+    /// The runs on which a simulated claim stands; of an onset or an order those that do not escape at
+    /// its end.
+    fn runs(&self) -> Option<Runs> {
+        let simulated = self.findings.simulated.as_ref().filter(|_| self.is_simulated())?;
+        let of = simulated.seeds.len();
+        let bounded = |&epsilon: &f64| Some(simulated.bounded(simulated.position(epsilon)?));
+        let not_escaped = |clusters: &[Vec<usize>]| {
+            let seen = self.findings.seen(clusters)?;
+            Some(of.saturating_sub(seen.onset.n_escaped))
+        };
+        let clusters = self.claimed_clusters();
+        let fewest = match self.spec.of {
+            Quantity::SimulatedOnset => not_escaped(&clusters),
+            Quantity::SimulatedOrder => clusters.chunks(1).filter_map(not_escaped).min(),
+            _ => self.epsilon().iter().filter_map(bounded).min(),
+        };
+        Some(Runs { bounded: fewest?, of })
+    }
+
+    fn is_simulated(&self) -> bool {
+        use Quantity as Q;
+        matches!(
+            self.spec.of,
+            Q::SimulatedClusters
+                | Q::SimulatedOnset
+                | Q::SimulatedOrder
+                | Q::SimulatedError
+                | Q::Pearson
+                | Q::Spearman
+                | Q::RandIndex
+                | Q::RegionVerdicts
+                | Q::SimulatedRegions
+                | Q::SimulatedGrey
+                | Q::SimulatedSize
+        )
     }
 
     fn epsilon(&self) -> &[f64] {
@@ -209,8 +270,9 @@ impl Judge<'_> {
         ));
         let tolerance = format!("≤ {allowed}");
         // Fewer modes may have been computed than were asked for.
-        if modes.iter().any(|&mode| mode > spectrum.eigenvalues.len()) {
-            return Ok(Judged::new(paper, Value::Null, tolerance, Answer::NothingToJudge));
+        if let Some(&mode) = modes.iter().find(|&&mode| mode > spectrum.eigenvalues.len()) {
+            let why = Answer::CannotBeJudged(self.not_computed(mode).to_string());
+            return Ok(Judged::new(paper, Value::Null, tolerance, why));
         }
         let farthest = distances.iter().copied().fold(0.0, f64::max);
         let shown = json!(format!("{farthest:.4} away"));

@@ -10,12 +10,14 @@ use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
 use crate::computed::Curves;
 use crate::journal::Journal;
-use crate::output::{say, tell};
+use crate::output::{one_line, say, shown, tell};
 use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{check, claims, compare, findings, list, predict, results, simulated, table};
+use crate::{
+    check, claims, compare, findings, list, place, predict, results, simulated, step_effect, table,
+};
 
 /// Predicted states of an experiment beside simulation that are shown; its summary has them all.
 const STATES_SHOWN: usize = 12;
@@ -122,7 +124,17 @@ pub fn run(cli: Cli) -> Result<bool> {
                 return Err(Problem::new(message).in_file(&folders.golden).hint(known));
             }
             let ids = if ids.is_empty() { golden } else { ids };
-            let place = |id: String| (id.clone(), folders.results.join(id));
+            let place = |id: String| {
+                let Some(folder) = place::aside(&folders.results, &id) else {
+                    return (id.clone(), folders.results.join(id));
+                };
+                tell!(
+                    "{id}: compared are the whole results in {}, which a run was killed over and the \
+                     next one will put in place",
+                    shown(&folder)
+                );
+                (id, folder)
+            };
             compare_all(&ids.into_iter().map(place).collect::<Vec<_>>(), &folders.golden)
         }
         Command::List { experiments, folders } => {
@@ -197,11 +209,14 @@ fn run_files(
         };
         let (found, claims, place) = journal.until(done)?;
         times.push(table::Times { id: plan.id.clone(), stages: plan.stages.took(), all: took() });
-        tell!("{}: {} in {}", plan.id, place.display(), seconds(took()));
+        tell!("{}: {} in {}", plan.id, shown(&place), seconds(took()));
         judged.push((plan.id.clone(), claims));
         states.extend(state_rows(plan, &found));
+        if let Some(looked) = step_effect::looked_at(&found.step_effects) {
+            tell!("{}: {looked}", plan.id);
+        }
         written.push((plan.id.clone(), place));
-        if matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
+        if matches!(plan.figure_kind(), FigureKind::Matrices | FigureKind::Regions) {
             let epsilon = found.simulated.map_or_else(Vec::new, |simulated| simulated.epsilon);
             let rows = epsilon.into_iter().zip(found.agreement);
             agreements.extend(rows.map(|(epsilon, row)| (plan.id.clone(), epsilon, row)));
@@ -221,7 +236,7 @@ fn run_files(
     }
     let all = || judged.iter().flat_map(|(_, claims)| claims);
     for claim in all().filter(|claim| claim.verdict != Verdict::Holds && !claim.reason.is_empty()) {
-        say!("{}: {}", claim.name.replace('_', " "), claim.reason);
+        say!("{}: {}", one_line(&claim.name).replace('_', " "), one_line(&claim.reason));
     }
     let count = |verdict| all().filter(|claim| claim.verdict == verdict).count();
     let undecided = match count(Verdict::CannotBeJudged) {

@@ -11,7 +11,7 @@ use msf::MasterStability;
 use spectra::Spectrum;
 
 use crate::journal::{Journal, Key, Kind, is_worth_keeping};
-use crate::plan::Plan;
+use crate::plan::{Node, Plan};
 use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
 
@@ -19,28 +19,28 @@ pub use sweep::{effects_of_step, simulate};
 
 /// The master stability functions computed so far: experiments that ask for the same one share it.
 #[derive(Default)]
-pub struct Curves(Vec<(msf::Node, msf::Request, MasterStability)>);
+pub struct Curves(Vec<(Node, msf::Request, MasterStability)>);
 
 impl Curves {
     /// The curve of a plan, computed unless an earlier plan, or an earlier run, had the same node and
     /// request.
     pub fn of(&mut self, plan: &Plan, journal: &Journal) -> Result<MasterStability> {
-        let same = |known: &&(msf::Node, msf::Request, MasterStability)| {
+        let same = |known: &&(Node, msf::Request, MasterStability)| {
             known.0 == plan.node && known.1 == plan.msf
         };
         let known = self.0.iter().find(same).map(|(_, _, curve)| curve.clone());
         let is_known = known.is_some();
-        let key = Key::of(Kind::Curve, &(plan.node, &plan.msf));
+        let key = Key::of(Kind::Curve, &(&plan.node, &plan.msf));
         let curve = journal.once((Kind::Curve, key), || {
             let compute = |progress: dynamics::Progress<'_>| {
-                msf::master_stability(&plan.node, &plan.msf, progress)
+                msf::master_stability(&plan.node.equations(), &plan.msf, progress)
             };
             known.map_or_else(|| plan.stages.measured("msf", plan.msf_steps(), compute), Ok)
         });
         let curve = curve.map_err(|error| msf_problem(plan, &error))?;
         refuse_overflow(plan, &curve)?;
         if !is_known {
-            self.0.push((plan.node, plan.msf.clone(), curve.clone()));
+            self.0.push((plan.node.clone(), plan.msf.clone(), curve.clone()));
         }
         Ok(curve)
     }
@@ -48,7 +48,7 @@ impl Curves {
 
 /// How far the curve must reach, by a first look at powers of two.
 pub fn reach(
-    node: &msf::Node,
+    node: &Node,
     times: &Times,
     stages: &Stages,
     journal: &Journal,
@@ -56,7 +56,8 @@ pub fn reach(
     const SEED: u64 = 1;
     let key = Key::of(Kind::Look, &(node, times, SEED));
     journal.once((Kind::Look, key), || {
-        let look = |progress: dynamics::Progress<'_>| msf::reach(node, times, SEED, progress);
+        let look =
+            |progress: dynamics::Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
         stages.measured("first look at the msf", 16 * times.steps(), look)
     })
 }

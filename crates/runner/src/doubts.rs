@@ -3,11 +3,12 @@
 
 use msf::{Isolated, MasterStability};
 
+use crate::findings::Findings;
 use crate::plan::{Plan, Sweep};
 use crate::problem::plain;
-use crate::simulated::Simulated;
-use crate::stability::with_error;
-use crate::table::two_digits;
+use crate::simulated::{Apart, Known, Seen, Simulated};
+use crate::stability::{with_error, word};
+use crate::table::{four_digits, two_digits};
 use crate::warning::Warnings;
 
 /// The least averages and transients, in slow times of the oscillator.
@@ -20,7 +21,7 @@ const NAMED: usize = 8;
 pub fn warn_of_short_times(plan: &Plan, warnings: &mut Warnings) {
     let component = plan.sweep.as_ref().map_or(0, |sweep| sweep.observables.component);
     let seed = plan.experiment.seed;
-    let slow = dynamics::slow_time(plan.node.model, component, plan.msf.times.step, seed);
+    let slow = dynamics::slow_time(&plan.node.model, component, plan.msf.times.step, seed);
     // An orbit at rest has no slow time, and the master stability function tells of one that escapes.
     let Ok(Some(slow)) = slow else { return };
     let mut times = vec![
@@ -52,28 +53,119 @@ pub fn warn_of_short_times(plan: &Plan, warnings: &mut Warnings) {
 
 /// Warns of what errors of a sweep do not mean, and of runs that are in no mean.
 pub fn warn_of_runs(msf: &MasterStability, simulated: &Simulated, warnings: &mut Warnings) {
-    warn_of_rest(msf, warnings);
+    warn_of_isolated(msf, warnings);
     warn_of_zero_coupling(simulated, warnings);
     warn_of_escapes(simulated, warnings);
+    warn_of_parted_runs(simulated, warnings);
 }
 
-/// Where neighbouring orbits of one oscillator do not part, nodes may agree without any coupling.
-fn warn_of_rest(msf: &MasterStability, warnings: &mut Warnings) {
-    let isolated = msf.isolated;
-    if msf.state == Isolated::Chaotic {
+/// How far apart groups of seeds must be to count: less where orbits are known to end in several ways.
+pub fn apart(msf: &MasterStability) -> Apart {
+    let has_several = msf.attractors.len() > 1 || msf.rests.len() > 1;
+    if has_several { Apart::EXPECTED } else { Apart::UNEXPECTED }
+}
+
+/// Warns of predicted states that seeds of the sweep show from, or up to, different ε on.
+pub fn warn_of_groups(findings: &Findings, warnings: &mut Warnings) {
+    if !findings.simulated.as_ref().is_some_and(Simulated::has_pairs) {
         return;
     }
-    let by_itself = if msf.rests.len() > 1 {
-        "an oscillator by itself comes to rest in one of several states, in the same one as many others"
+    for (at, state) in findings.cascade.iter().enumerate() {
+        let clusters = state.clusters.nontrivial();
+        let seen = findings.state_seen(at, &clusters).filter(|_| !clusters.is_empty());
+        let Some(Seen { onset, end }) = seen else { continue };
+        for (name, end) in [("onset", onset), ("upper end", end)] {
+            if end.bound == Known::Groups {
+                let groups: Vec<String> = end.groups.iter().map(ToString::to_string).collect();
+                let message = format!(
+                    "the {name} of the state predicted from epsilon = {} on is not one number, so that \
+                     no mean is given: {}",
+                    four_digits(state.epsilon.0),
+                    groups.join(", ")
+                );
+                warnings.add("cascade", message);
+            }
+        }
+    }
+}
+
+/// What errors mean follows from what a node does by itself, where that is not chaos on one attractor.
+fn warn_of_isolated(msf: &MasterStability, warnings: &mut Warnings) {
+    let exponent = with_error(msf.isolated.mean, msf.isolated.standard_error);
+    let what = if msf.attractors.len() > 1 {
+        let kinds: Vec<&str> = msf.attractors.iter().map(|a| word(a.state)).collect();
+        format!(
+            "an isolated oscillator settles on one of {} attractors ({}): which of them nodes come to \
+             depends on where they start, so that errors and onsets may differ from seed to seed by \
+             more than chance",
+            kinds.len(),
+            kinds.join(", ")
+        )
     } else {
-        "an oscillator by itself forgets where it started"
+        match (msf.state, msf.rests.len()) {
+            (Isolated::Chaotic, _) => return,
+            (Isolated::Periodic, _) => format!(
+                "Lambda(0) = {exponent} is zero within its error, as on a limit cycle or a torus, where \
+                 neighbours neither part nor approach: without coupling nodes keep the phases in which \
+                 they start, so that errors at weak coupling depend on the seed, and longer averages do \
+                 not change that"
+            ),
+            (Isolated::AtRest, 0 | 1) => format!(
+                "Lambda(0) = {exponent} is below zero: an oscillator by itself comes to rest in the same \
+                 state from wherever it starts, so that small errors are no sign of coupling"
+            ),
+            (Isolated::AtRest, n) => format!(
+                "Lambda(0) = {exponent} is below zero: an oscillator by itself comes to rest in one of {n} \
+                 states, so that small errors of nodes in the same one are no sign of coupling, and \
+                 those of others are the distances of these states"
+            ),
+        }
     };
-    let message = format!(
-        "Lambda(0) = {} is not above zero within its error: {by_itself}, so that small errors are no \
-         sign of coupling",
-        with_error(isolated.mean, isolated.standard_error)
-    );
-    warnings.add("simulations", message);
+    warnings.add("simulations", what);
+}
+
+/// Every stretch of ε at which runs fall into two groups.
+fn warn_of_parted_runs(simulated: &Simulated, warnings: &mut Warnings) {
+    let parted: Vec<usize> =
+        (0..simulated.epsilon.len()).filter(|&at| simulated.parted(at).is_some()).collect();
+    let stretches: Vec<&[usize]> = parted.chunk_by(|a, b| b - a == 1).collect();
+    for stretch in stretches.iter().take(NAMED) {
+        let Some(groups) = simulated.parted(stretch[0]) else { continue };
+        let group = |(n_runs, [least, most]): &(usize, [f64; 2])| {
+            let range = if n_runs == &1 {
+                two_digits(*most)
+            } else {
+                format!("{} to {}", two_digits(*least), two_digits(*most))
+            };
+            format!("{n_runs} with largest errors of {range}")
+        };
+        let groups: Vec<String> = groups.iter().map(group).collect();
+        let message = format!(
+            "at epsilon = {} runs fall into two groups, and means are of neither: {}{}",
+            place(simulated, stretch),
+            groups.join(", "),
+            if stretch.len() > 1 { " at the first of these" } else { "" }
+        );
+        warnings.add("simulations", message);
+    }
+    tell_of_others("fall into groups", stretches.len(), warnings);
+}
+
+/// Ranges of ε that are not named.
+fn tell_of_others(what: &str, stretches: usize, warnings: &mut Warnings) {
+    if let Some(left) = stretches.checked_sub(NAMED).filter(|&left| left > 0) {
+        let message = format!("runs {what} in {left} more ranges of epsilon, see sweep.csv");
+        warnings.add("simulations", message);
+    }
+}
+
+/// A stretch of points of a sweep.
+fn place(simulated: &Simulated, stretch: &[usize]) -> String {
+    let epsilon = |at: &usize| plain(simulated.epsilon[*at]);
+    match stretch {
+        [at] => epsilon(at),
+        _ => format!("{} to {}", epsilon(&stretch[0]), epsilon(&stretch[stretch.len() - 1])),
+    }
 }
 
 /// Nodes without coupling whose errors are small are alike by their own dynamics.
@@ -97,23 +189,17 @@ fn warn_of_zero_coupling(simulated: &Simulated, warnings: &mut Warnings) {
 
 /// Every stretch of ε at which the same number of runs escaped.
 fn warn_of_escapes(simulated: &Simulated, warnings: &mut Warnings) {
-    let (epsilon, n_runs) = (&simulated.epsilon, simulated.seeds.len());
-    let escaped: Vec<usize> = (0..epsilon.len()).map(|at| simulated.escaped(at)).collect();
-    let stretches: Vec<Vec<usize>> = (0..epsilon.len())
+    let n_runs = simulated.seeds.len();
+    let escaped: Vec<usize> =
+        (0..simulated.epsilon.len()).map(|at| simulated.escaped(at)).collect();
+    let stretches: Vec<Vec<usize>> = (0..simulated.epsilon.len())
         .collect::<Vec<_>>()
         .chunk_by(|&a, &b| escaped[a] == escaped[b])
         .filter(|stretch| escaped[stretch[0]] > 0)
         .map(<[usize]>::to_vec)
         .collect();
     for stretch in stretches.iter().take(NAMED) {
-        let place = match stretch[..] {
-            [at] => plain(epsilon[at]),
-            _ => format!(
-                "{} to {}",
-                plain(epsilon[stretch[0]]),
-                plain(epsilon[stretch[stretch.len() - 1]])
-            ),
-        };
+        let place = place(simulated, stretch);
         let message = match escaped[stretch[0]] {
             all if all == n_runs => {
                 let who = if all == 1 { "the only run".into() } else { format!("all {all} runs") };
@@ -127,8 +213,5 @@ fn warn_of_escapes(simulated: &Simulated, warnings: &mut Warnings) {
         };
         warnings.add("simulations", message);
     }
-    if let Some(left) = stretches.len().checked_sub(NAMED).filter(|&left| left > 0) {
-        let message = format!("runs escaped in {left} more ranges of epsilon, see sweep.csv");
-        warnings.add("simulations", message);
-    }
+    tell_of_others("escaped", stretches.len(), warnings);
 }

@@ -13,7 +13,8 @@ pub use room::foreseen;
 
 use crate::figures::{
     Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
-    NetworkPanel, Node, Panel, Placement, Scale, Series, Spread, SpreadStyle, msf_panel,
+    NetworkPanel, Node, Panel, Placement, Scale, Series, Shade, Spread, SpreadStyle, Tone,
+    msf_panel,
 };
 use crate::findings::Findings;
 use crate::plan::{Plan, Sweep};
@@ -28,7 +29,7 @@ const DRAWN_NODES: usize = 1000;
 
 /// The figure of the kind that the experiment asks for.
 fn figure(plan: &Plan, findings: &Findings) -> Figure {
-    match (plan.figure().kind, &findings.simulated) {
+    match (plan.figure_kind(), &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
         (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
         _ => sweep(plan, findings),
@@ -94,13 +95,14 @@ fn spectrum(findings: &Findings) -> LinePanel {
     }
 }
 
-/// The clusters that colour the network: those of the experiment, else the first predicted state
-/// below global synchronisation.
+/// The clusters that colour the network: those of the experiment, else of the first predicted state
+/// that has some beside global synchronisation.
 fn shown_clusters(plan: &Plan, findings: &Findings) -> Vec<Vec<usize>> {
     let own = plan.sweep.as_ref().map(|sweep| sweep.observables.clusters.clone());
     own.filter(|clusters| !clusters.is_empty()).unwrap_or_else(|| {
-        let below = findings.cascade.iter().find(|state| state.clusters.n_clusters() > 1);
-        below.map_or_else(Vec::new, |state| state.clusters.nontrivial())
+        let some = findings.cascade.iter().filter(|state| state.clusters.n_clusters() > 1);
+        let clusters = some.map(|state| state.clusters.nontrivial());
+        clusters.into_iter().find(|clusters| !clusters.is_empty()).unwrap_or_default()
     })
 }
 
@@ -194,38 +196,47 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
             .into_iter()
             .filter(|group| !group.markers.is_empty())
             .collect(),
-        ..escapes(simulated)
+        shaded: shades(simulated),
+        ..LinePanel::default()
     }
 }
 
-/// The ranges of ε in which runs came to no end, shaded, each as far as halfway to its neighbours.
-fn escapes(simulated: &Simulated) -> LinePanel {
-    let (epsilon, n_runs) = (&simulated.epsilon, simulated.seeds.len());
-    let lost: Vec<usize> = (0..epsilon.len()).map(|at| simulated.broken_off(at)).collect();
+/// Points of a sweep as ranges of ε, each as far as halfway to its neighbours.
+fn stretches(epsilon: &[f64], is_inside: impl Fn(usize) -> bool) -> Vec<[f64; 2]> {
     let halfway = |at: usize, next: usize| 0.5 * (epsilon[at] + epsilon[next]);
-    let (mut shaded, last): (Vec<[f64; 2]>, _) = (Vec::new(), epsilon.len() - 1);
-    for at in (0..=last).filter(|&at| lost[at] > 0) {
+    let (mut spans, last): (Vec<[f64; 2]>, _) = (Vec::new(), epsilon.len() - 1);
+    for at in (0..=last).filter(|&at| is_inside(at)) {
         let (from, to) = (halfway(at.saturating_sub(1), at), halfway(at, (at + 1).min(last)));
-        match shaded.last_mut() {
+        match spans.last_mut() {
             Some(before) if before[1] == from => before[1] = to,
-            _ => shaded.push([from, to]),
+            _ => spans.push([from, to]),
         }
     }
-    let some: Vec<usize> = lost.into_iter().filter(|&count| count > 0).collect();
-    let count = match (some.iter().min(), some.iter().max()) {
+    spans
+}
+
+/// The ranges of ε in which runs fall into groups, so that their mean is of neither, and in which some
+/// came to no end.
+fn shades(simulated: &Simulated) -> Vec<Shade> {
+    let (epsilon, n_runs) = (&simulated.epsilon, simulated.seeds.len());
+    let lost: Vec<usize> = (0..epsilon.len()).map(|at| simulated.broken_off(at)).collect();
+    let some = || lost.iter().filter(|&&count| count > 0);
+    let count = match (some().min(), some().max()) {
         (Some(least), Some(most)) if least == most => format!("{least} of {n_runs}"),
         (Some(least), Some(most)) => format!("{least} to {most} of {n_runs}"),
         _ => String::new(),
     };
-    LinePanel {
-        shaded_label: if shaded.is_empty() {
-            Label::default()
-        } else {
-            Label::text(format!("{count} runs {}", simulated.broke_off()))
-        },
-        shaded,
-        ..LinePanel::default()
-    }
+    let parted = Shade {
+        spans: stretches(epsilon, |at| simulated.parted(at).is_some()),
+        label: Label::text("runs in two groups"),
+        tone: Tone::Yellow,
+    };
+    let escaped = Shade {
+        spans: stretches(epsilon, |at| lost[at] > 0),
+        label: Label::text(format!("{count} runs {}", simulated.broke_off())),
+        tone: Tone::Grey,
+    };
+    [parted, escaped].into_iter().filter(|shade| !shade.spans.is_empty()).collect()
 }
 
 /// A curve over ε with the spread over seeds.

@@ -6,7 +6,7 @@ use clustering::{
 };
 use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
-use spectra::Spectrum;
+use spectra::{RealModes, Spectrum};
 
 use crate::agreement::{self, Agreement};
 use crate::check;
@@ -70,7 +70,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
     // Zero modes are zero exactly, and no others are.
-    let critical = msf::critical_couplings(stable, &spectrum.real_eigenvalues(), 0.0);
+    let modes = spectrum.real_modes();
+    let mut critical = msf::critical_couplings(stable, &modes.eigenvalues, 0.0);
+    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &modes));
     let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let fastest_rate = fastest.map_or_else(|| strongest(plan), f64::abs);
     if let Some(above) = assumed_above(stable, fastest_rate) {
@@ -99,7 +101,11 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         })
         .map_err(|error| unpredictable(plan, &error))?;
     let simulated = match &plan.sweep {
-        Some(sweep) => Some(computed::simulate(plan, sweep, journal, &mut warnings)?),
+        Some(sweep) => {
+            let mut simulated = computed::simulate(plan, sweep, journal, &mut warnings)?;
+            simulated.apart = doubts::apart(&msf);
+            Some(simulated)
+        }
         None => {
             journal.tell_taken();
             None
@@ -133,9 +139,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
-    let warnings = warnings.into_list();
     let taken = journal.taken();
-    Ok(Findings {
+    let mut findings = Findings {
         cascade,
         labels,
         trees,
@@ -147,8 +152,19 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
         step_effects,
         agreement,
         taken,
-        warnings,
-    })
+        warnings: Vec::new(),
+    };
+    doubts::warn_of_groups(&findings, &mut warnings);
+    findings.warnings = warnings.into_list();
+    Ok(findings)
+}
+
+/// ε_k = σ/|λ_k| is as uncertain as both; λ_k is so where the links behind it are lost in rounding.
+fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, modes: &RealModes<'_>) {
+    let relative = modes.error(critical.mode - 1) / critical.lambda.abs();
+    if critical.epsilon.is_finite() {
+        critical.standard_error = critical.standard_error.hypot(critical.epsilon * relative);
+    }
 }
 
 /// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
@@ -227,6 +243,36 @@ impl Findings {
     /// The clusters predicted at a coupling strength; none where the prediction does not reach.
     pub fn predicted_at(&self, epsilon: f64) -> Option<&Partition> {
         self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
+    }
+
+    /// The clusters predicted on either side of critical couplings that may, within two standard errors,
+    /// lie on the other side of this ε; none for a side that is not predicted.
+    pub fn predicted_about(&self, epsilon: f64) -> Vec<Option<&Partition>> {
+        let is_near = |c: &&CriticalCoupling| {
+            (c.epsilon - epsilon).abs() <= 2.0 * c.standard_error && c.epsilon.is_finite()
+        };
+        let near: Vec<f64> = self.critical.iter().filter(is_near).map(|c| c.epsilon).collect();
+        let [low, high] =
+            near.iter().fold([epsilon; 2], |[low, high], &at| [low.min(at), high.max(at)]);
+        if near.is_empty() {
+            return Vec::new();
+        }
+        let is_met =
+            |state: &&State| state.epsilon.0 <= high && state.epsilon.1.is_none_or(|to| low <= to);
+        let mut met: Vec<Option<&Partition>> =
+            self.cascade.iter().filter(is_met).map(|state| Some(&*state.clusters)).collect();
+        let [top, bottom] = [self.cascade.first(), self.cascade.last()];
+        let ends_above = top.and_then(|state| state.epsilon.1).is_some_and(|to| to <= high);
+        let ends_below = bottom.is_some_and(|state| low <= state.epsilon.0);
+        met.extend((ends_above || ends_below).then_some(None));
+        met
+    }
+
+    /// Whether something is predicted at every ε.
+    pub fn is_predicted_everywhere(&self) -> bool {
+        let [first, last] = [self.cascade.first(), self.cascade.last()];
+        first.is_some_and(|state| state.epsilon.1.is_none())
+            && last.is_some_and(|state| state.epsilon.0 == 0.0)
     }
 
     /// ε at which these nodes cease to be in one predicted cluster as ε falls; none if they never are

@@ -164,9 +164,12 @@ impl Journal {
     pub fn open(folder: &Path, id: &str, fresh: bool) -> Result<Arc<Self>> {
         let path = folder.join(JOURNAL);
         let failed = |error: std::io::Error| {
-            Problem::from_error("the journal cannot be opened", error)
-                .in_file(&path)
-                .hint("`--fresh` begins anew")
+            // A folder is none of ours, and stays whatever is wanted.
+            let hint = match path.is_dir() {
+                true => "move the folder away; a run leaves a file of this name",
+                false => "`--fresh` begins anew",
+            };
+            Problem::from_error("the journal cannot be opened", error).in_file(&path).hint(hint)
         };
         let mut snapshots = Snapshots::new(folder);
         if fresh {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use crate::load;
-use crate::output::say;
+use crate::output::{one_line, say, shown};
 use crate::place::{Found, Head};
 use crate::plan;
 use crate::problem::{Problem, Result};
@@ -30,7 +30,7 @@ pub fn list(experiments: &Path, results: &Path) -> Result<()> {
     }
     let lines: Vec<String> = files.par_iter().map(|file| line(file, results)).collect();
     for line in lines {
-        say!("{line}");
+        say!("{}", one_line(&line));
     }
     Ok(())
 }
@@ -46,14 +46,17 @@ fn line(file: &Path, results: &Path) -> String {
     let mut marks = Vec::new();
     marks.extend(found.full.as_ref().map(|head| format!("results{}", state(head))));
     marks.extend(found.quick.as_ref().map(|head| format!("results of a quick run{}", state(head))));
+    marks.extend(found.aside.as_ref().map(|folder| {
+        format!("whole results in {}: run it again to put them in place", shown(folder))
+    }));
     if found.is_running {
         marks.push("running".into());
-    } else if found.is_unfinished {
+    } else if found.is_unfinished && found.aside.is_none() {
         marks.push("unfinished: run it again to go on from there".into());
     }
     let marks: String = marks.iter().map(|mark| format!("[{mark}] ")).collect();
     let title = title.or_else(|| experiment.map(|now| now.title)).unwrap_or_default();
-    format!("{:<40} {marks}{title}", file.display())
+    format!("{:<40} {marks}{title}", shown(file))
 }
 
 /// What has become of an experiment since its results were written, as an addition to a mark.

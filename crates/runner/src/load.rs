@@ -7,6 +7,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 use crate::files;
+use crate::output::shown;
 use crate::problem::{Problem, Result, nearest};
 use crate::spec::Experiment;
 
@@ -106,7 +107,7 @@ fn read(path: &Path) -> Result<String> {
     if kind == "a folder" {
         return Err(Problem::new("is a folder, expected an experiment file")
             .in_file(path)
-            .hint(format!("`eigensync list {}` shows the experiments in it", path.display())));
+            .hint(format!("`eigensync list {}` shows the experiments in it", shown(path))));
     }
     if kind != files::REGULAR {
         return Err(Problem::new(format!("is {kind}, expected {}", files::REGULAR)).in_file(path));
@@ -161,8 +162,49 @@ fn explain(message: &str, table: &DeTable<'_>, span: &Range<usize>, text: &str) 
             let parent = key.rsplit_once('.').map_or(&key[..], |(parent, _)| parent);
             Problem::new(format!("`{parent}` must have exactly one table [{parent}.…]"))
         }
-        _ => Problem::new(format!("`{key}` {}", mistyped(message, &key, &text[span.clone()]))),
+        _ => {
+            let problem =
+                Problem::new(format!("`{key}` {}", mistyped(message, &key, &text[span.clone()])));
+            match shape(&key) {
+                Some(shape) => problem.hint(format!("it is written so: {shape}")),
+                None => problem,
+            }
+        }
     }
+}
+
+/// How keys are written whose value is a list, or one of several things. `*` stands for any name.
+const SHAPES: [(&str, &str); 20] = [
+    ("prepare", "prepare = [\"drop_self_loops\", { symmetrise = \"max\" }]"),
+    ("network.file.block", "block = [1, 90], its first and its last row, counted from 1"),
+    ("network.file.attributes.position", "position = [\"x\", \"y\"]"),
+    ("network.communities.sizes", "sizes = [30, 30, 40]"),
+    ("network.communities.probability", "probability = [[0.9, 0.1], [0.1, 0.9]]"),
+    ("groups.ranges.*", "left = [1, 30], the first and the last node, counted from 1"),
+    ("spectrum.modes", "modes = \"auto\", \"all\", 20 or { unstable_at = 0.5 }"),
+    ("msf.sigma", "sigma = { from = 0.0, to = 12.0, points = 49 } or [0.0, 0.5, 1.0]"),
+    ("prediction.threshold", "threshold = \"exact\" or 0.05"),
+    ("sweep.epsilon", "epsilon = { from = 0.5, to = 5.0, points = 10 } or [0.5, 1.0, 2.5]"),
+    ("sweep.clusters", "clusters = [[1, 2, 6], [3, 4, 5]], a list of nodes for each cluster"),
+    ("sweep.synchronised_below", "synchronised_below = 1e-3 or { of_largest = 0.1 }"),
+    ("regions.*", "a number such as 0.05, or { of_largest = 0.1 }"),
+    ("figure.eigenvectors", "eigenvectors = [2, 3, 4]"),
+    ("figure.layout", "layout = \"circle\", \"force\", \"grouped\" or [[0.0, 0.0], [1.0, 0.5]]"),
+    ("figure.mark_modes", "mark_modes = [2, 3]"),
+    ("figure.source_transitions", "source_transitions = [0.5, 1.2]"),
+    ("claims.*.where.epsilon", "epsilon = 0.5 or [0.5, 1.0]"),
+    ("claims.*.where.modes", "modes = [2, 3]"),
+    ("claims.*.where.clusters", "clusters = [[1, 2], [3, 4]]"),
+];
+
+/// How the value of a key is written.
+fn shape(key: &str) -> Option<&'static str> {
+    let is_it = |known: &str| {
+        let (known, key) = (known.split('.'), key.split('.'));
+        known.clone().count() == key.clone().count()
+            && known.zip(key).all(|(known, key)| known == "*" || known == key)
+    };
+    SHAPES.into_iter().find(|(known, _)| is_it(known)).map(|(_, shape)| shape)
 }
 
 fn missing(name: &str, table: &DeTable<'_>, span: &Range<usize>) -> Problem {
@@ -198,6 +240,9 @@ fn mistyped(message: &str, key: &str, value: &str) -> String {
             format!("is {}, but must be {}", kind_found(found), kind_expected(expected))
         }
         (None, "wanted string or table") => "must be a name in quotes or a table".into(),
+        (None, message) if message.starts_with("data did not match any variant") => {
+            format!("is {value}, which is of none of the shapes that it may have")
+        }
         (None, message) => format!("cannot be read: {message}"),
     }
 }
@@ -262,7 +307,7 @@ fn place(path: &Path, text: &str, byte: usize) -> String {
     let before = &text[..byte.min(text.len())];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let (line, column) = (before.matches('\n').count() + 1, before[line_start..].chars().count());
-    format!("{}:{line}:{}", path.display(), column + 1)
+    format!("{}:{line}:{}", shown(path), column + 1)
 }
 
 /// The line that holds a byte of the text, or as much of it as bears quoting.

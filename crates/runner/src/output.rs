@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// `println!` that neither panics nor lets control characters through.
@@ -71,6 +72,24 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
+/// A text in one line: names of files, labels and titles may have line breaks, after which the rest
+/// would read as something that we say.
+pub fn one_line(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_command) {
+        return Cow::Borrowed(text);
+    }
+    let written_out = |c: char| match is_command(c) {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(written_out).collect())
+}
+
+/// A path in one line.
+pub fn shown(path: impl AsRef<Path>) -> String {
+    one_line(&path.as_ref().display().to_string()).into_owned()
+}
+
 /// Whether a character is not shown but obeyed: control characters, and those that turn the direction
 /// of the text after them, so that it reads as something else (Unicode Standard Annex 9).
 pub fn is_command(c: char) -> bool {
@@ -120,6 +139,13 @@ mod tests {
         assert_eq!(printable("ε\tx\n"), "ε\tx\n");
         assert_eq!(printable("\u{1b}[2J\u{9b}1m\r"), "\\u{1b}[2J\\u{9b}1m\\u{d}");
         assert_eq!(printable("a\u{202e}b\u{2066}"), "a\\u{202e}b\\u{2066}");
+    }
+
+    #[test]
+    fn names_with_line_breaks_are_shown_in_one_line() {
+        assert_eq!(one_line("ε b"), "ε b");
+        assert_eq!(one_line("a\nerror: b\t\u{1b}[2J"), "a\\nerror: b\\t\\u{1b}[2J");
+        assert_eq!(shown(Path::new("a\r\nb")), "a\\r\\nb");
     }
 
     #[test]

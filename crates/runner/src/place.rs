@@ -24,11 +24,11 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::output::tell;
+use crate::output::{shown, tell};
 use crate::problem::{Problem, Result};
 
 pub use folder::Folder;
-pub use found::Found;
+pub use found::{Found, aside};
 use lock::Lock;
 pub use name::id;
 pub use standing::{Head, Origin};
@@ -69,6 +69,7 @@ impl Place {
         let (target, _) = place.target()?;
         refuse_mounted(&target)?;
         let hidden = name::hidden(results, id, quick);
+        refuse_mounted(&hidden)?;
         let lock = Lock::take(&hidden, &place.origin).map_err(|error| match error {
             lock::Refusal::Io(error) => failed(error),
             lock::Refusal::Problem(problem) => problem,
@@ -138,7 +139,9 @@ impl Place {
 
     /// What stands at a place, if it may be replaced by this run.
     fn mine(&self, place: &Path) -> Result<Option<Ours>> {
-        let there = standing(place, &self.id)?;
+        let there = standing(place, &self.id);
+        // Of what is mounted there, that is to be said.
+        let there = there.or_else(|problem| refuse_mounted(place).and(Err(problem)))?;
         if let Some(ours) = &there {
             ours.check_origin(&self.origin, place)?;
         }
@@ -152,7 +155,7 @@ impl Place {
         let [whole, replaced] = [WHOLE, REPLACED].map(|name| self.unfinished().join(name));
         let (place, there) = self.target()?;
         let failed = |error: std::io::Error| {
-            let hint = format!("the whole results are in {}", whole.display());
+            let hint = format!("the whole results are in {}", shown(&whole));
             Problem::from_error("cannot be put in place", error).in_file(&place).hint(hint)
         };
         let is_newer = |ours: &Ours| manifest::is_newer(&whole, &ours.folder);
@@ -178,7 +181,7 @@ impl Place {
             carry::move_rest(&older, &place).map_err(|error| {
                 let hint = format!(
                     "what is yours in it belongs to {}: move it there, and remove the folder",
-                    place.display()
+                    shown(&place)
                 );
                 let message = "older results cannot be cleared away";
                 Problem::from_error(message, error).in_file(&older).hint(hint)
@@ -210,16 +213,12 @@ fn within(results: &Path, id: &str) -> std::io::Result<PathBuf> {
 
 /// A file system that is mounted at the place cannot be exchanged for a folder.
 fn refuse_mounted(place: &Path) -> Result<()> {
-    use std::os::unix::fs::MetadataExt;
-    let device = |path: &Path| fs::symlink_metadata(path).map(|found| found.dev());
-    match (device(place), device(exchange::parent(place))) {
-        (Ok(own), Ok(around)) if own != around => {
-            let message = "is a file system of its own, which cannot be exchanged for new results";
-            let hint = "write into it: `--results` names a folder that holds results";
-            Err(Problem::new(message).in_file(place).hint(hint))
-        }
-        _ => Ok(()),
+    if !exchange::is_mount(place) {
+        return Ok(());
     }
+    let message = "a file system is mounted there, which cannot be exchanged for new results";
+    let hint = "write into it: `--results` names a folder that holds results";
+    Err(Problem::new(message).in_file(place).hint(hint))
 }
 
 /// Removes a folder that is ours alone, if it is there.

@@ -5,6 +5,7 @@ mod claims;
 mod effects;
 mod memory;
 mod network;
+mod node;
 mod numbers;
 mod ranges;
 mod source;
@@ -15,21 +16,25 @@ use std::path::{Path, PathBuf};
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
-use dynamics::{Adaptive, AdaptiveOrder, Coupling, Method, Model, Observables, Replica, Schedule};
+use dynamics::{
+    Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Replica, Schedule,
+};
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
 
 pub use memory::Memory;
 pub use network::nodes_named;
+pub use node::Node;
 use serde_json::Value;
 pub use spectrum::SpectrumPlan;
 
+use crate::output::shown;
 use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
 use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
-    Bound, Experiment, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
+    Bound, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
 };
 use crate::warning::Warning;
 
@@ -37,7 +42,7 @@ use crate::warning::Warning;
 pub const QUICK: f64 = 10.0;
 
 /// Up to this many nodes all pairs are observed; beyond it only what the file asks for.
-const ALL_PAIRS: usize = 2000;
+pub const ALL_PAIRS: usize = 2000;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -62,7 +67,7 @@ pub struct Plan {
     pub preparation: Vec<Report>,
     pub matrix: CouplingMatrix,
     pub spectrum: SpectrumPlan,
-    pub node: msf::Node,
+    pub node: Node,
     pub msf: msf::Request,
     pub rule: ClusterRule,
     pub sweep: Option<Sweep>,
@@ -119,7 +124,7 @@ pub fn all(files: &[PathBuf], quick: bool) -> Result<(Vec<Plan>, Vec<Problem>)> 
         if let Some(earlier) = plans[..position].iter().find(|plan| plan.id == later.id) {
             let message = format!(
                 "has the same name as {}, and both would write the results folder {}",
-                earlier.file.display(),
+                shown(&earlier.file),
                 later.id
             );
             return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
@@ -170,7 +175,7 @@ fn of(
         spectrum: checker.spectrum(network.n_nodes(), n_components)?,
         msf: checker.msf()?,
         rule: checker.rule(network.n_nodes())?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node)).transpose()?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node.model)).transpose()?,
         id: id(file)?,
         file: file.to_owned(),
         kept: None,
@@ -219,12 +224,12 @@ impl Checker<'_> {
         }
     }
 
-    fn node(&self) -> Result<msf::Node> {
+    fn node(&self) -> Result<Node> {
         let (model, spec) = (self.experiment.oscillator, &self.experiment.coupling);
         self.parameters(model)?;
         let from = self.component("coupling.from", &spec.from, model)?;
         let to = self.component("coupling.to", &spec.to, model)?;
-        Ok(msf::Node { model, coupling: Coupling { from, to } })
+        Ok(Node { model, coupling: Coupling::pair(from, to) })
     }
 
     fn parameters(&self, model: Model) -> Result<()> {
@@ -302,13 +307,13 @@ impl Checker<'_> {
         }
     }
 
-    fn sweep(&self, spec: &SweepSpec, network: &Network, node: msf::Node) -> Result<Sweep> {
+    fn sweep(&self, spec: &SweepSpec, network: &Network, model: Model) -> Result<Sweep> {
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
         let schedule = self.schedule(spec, epsilon[0])?;
         let pairs = network.n_nodes() <= ALL_PAIRS;
         self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
         let component = match &spec.component {
-            Some(name) => self.component("sweep.component", name, node.model)?,
+            Some(name) => self.component("sweep.component", name, model)?,
             None => 0,
         };
         let reference = match &spec.error_to {
@@ -373,5 +378,15 @@ impl Checker<'_> {
 impl Plan {
     pub fn figure(&self) -> &FigureSpec {
         &self.experiment.figure
+    }
+
+    /// The kind of the figure that can be drawn: there are no matrices where not all pairs are
+    /// observed, and the sweep is shown instead.
+    pub fn figure_kind(&self) -> FigureKind {
+        let has_pairs = self.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+        match self.figure().kind {
+            FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
+            kind => kind,
+        }
     }
 }

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
-use dynamics::Model;
 use dynamics::lyapunov::Times;
+use dynamics::{Model, NodeDynamics};
 use toml::{Table, Value, toml};
 
 use crate::computed::{self, Curves};
 use crate::journal::Journal;
-use crate::output::say;
+use crate::output::{say, shown};
 use crate::place::{self, Place};
-use crate::plan::{self, Plan};
+use crate::plan::{self, Node, Plan};
 use crate::problem::{Problem, Result, nearest};
 use crate::progress::Stages;
 use crate::spec::{Format, MatrixKind, ModesSpec};
@@ -105,8 +105,8 @@ pub fn run(args: &Args) -> Result<()> {
         Ok((plan, found, place))
     })?;
     say!("{}", overview::of(&plan, &found).trim_end());
-    say!("\nresults in {}, in {:.1} s", place.display(), started.elapsed().as_secs_f64());
-    say!("the same as an experiment file: {}", place.join(results::EXPERIMENT).display());
+    say!("\nresults in {}, in {:.1} s", shown(&place), started.elapsed().as_secs_f64());
+    say!("the same as an experiment file: {}", shown(place.join(results::EXPERIMENT)));
     Ok(())
 }
 
@@ -284,13 +284,13 @@ fn coupling(model: Model, (from, to): (&str, &str)) -> Result<dynamics::Coupling
                 .hint(components(model))
         })
     };
-    Ok(dynamics::Coupling { from: component(from)?, to: component(to)? })
+    Ok(dynamics::Coupling::pair(component(from)?, component(to)?))
 }
 
 /// How far the curve of Λ must reach.
 fn reach(args: &Args, stages: &Stages, journal: &Journal) -> Result<f64> {
     let (_, model) = oscillator(&args.oscillator)?;
-    let node = msf::Node { model, coupling: coupling(model, components_coupled(args)?)? };
+    let node = Node { model, coupling: coupling(model, components_coupled(args)?)? };
     computed::reach(&node, &FIRST_LOOK, stages, journal)
         .map_err(|error| Problem::from_error("the master stability function", error))
 }

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::output::{one_line, shown};
+
 /// A problem with the input or the surroundings; the command answers it and exits with status 2.
 #[derive(Debug)]
 pub struct Problem {
@@ -36,7 +38,7 @@ impl Problem {
 
     #[must_use]
     pub fn in_file(self, file: &Path) -> Self {
-        self.at(file.display().to_string())
+        self.at(shown(file))
     }
 
     /// Names the place unless one is named already.
@@ -50,8 +52,8 @@ impl Problem {
     /// the user knows.
     #[must_use]
     pub fn renamed(mut self, from: &Path, to: &Path) -> Self {
-        if self.place.as_deref() == Some(&from.display().to_string()) {
-            self.place = Some(to.display().to_string());
+        if self.place.as_deref() == Some(&shown(from)) {
+            self.place = Some(shown(to));
         }
         self
     }
@@ -84,11 +86,11 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(place) = &self.place {
-            write!(f, "{place}: ")?;
+            write!(f, "{}: ", one_line(place))?;
         }
-        f.write_str(&self.message)?;
+        f.write_str(&one_line(&self.message))?;
         if let Some(hint) = &self.hint {
-            write!(f, "\n\nhint: {hint}")?;
+            write!(f, "\n\nhint: {}", one_line(hint))?;
         }
         if let Some(kept) = &self.kept {
             write!(f, "\n\n{kept}")?;

@@ -133,7 +133,7 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
 /// their names as the shortest text that reads back as the same number, so that no two are alike.
 fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
     let Some(simulated) = &findings.simulated else { return Ok(()) };
-    if !matches!(plan.figure().kind, FigureKind::Matrices | FigureKind::Regions) {
+    if !matches!(plan.figure_kind(), FigureKind::Matrices | FigureKind::Regions) {
         return Ok(());
     }
     let n_nodes = plan.network.n_nodes();

@@ -8,6 +8,7 @@
 //! Means are over the runs that stayed bounded, and their number stands beside them. Nodes at ε = 0 are
 //! uncoupled: whether their errors are small is a property of each node, and no synchrony.
 
+mod groups;
 mod range;
 
 use clustering::Partition;
@@ -16,23 +17,32 @@ use dynamics::{Errors, Estimate, Outcome, Run};
 use crate::plan::Sweep;
 use crate::spec::Bound;
 
+use groups::groups;
+
+pub use groups::Apart;
 pub use range::{End, Known, Seen};
 
 /// Errors below this, in units of the component, are what rounding and kicks leave of perfect
 /// synchrony: nodes that far apart are together, whatever fraction of the largest error it is.
 const PERFECT_SYNCHRONY: f64 = 1e-9;
 
+/// Errors of seeds that differ by less than some of these, in units of the largest error of the sweep,
+/// may do so by bursts.
+const BURSTS: f64 = 0.05;
+
 /// The runs of a sweep, seed by seed within each ε.
 pub struct Simulated {
     pub epsilon: Vec<f64>,
     pub seeds: Vec<u64>,
     pub runs: Vec<Run>,
+    /// How far apart groups of seeds must be to count.
+    pub apart: Apart,
     synchronised_below: Bound,
     n_nodes: usize,
 }
 
 /// An error at one ε over the seeds that stayed bounded.
-#[derive(Clone, Copy, Debug, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct OverSeeds {
     /// Mean over these seeds.
     pub mean: f64,
@@ -68,6 +78,7 @@ impl Simulated {
         Self {
             epsilon: sweep.epsilon.clone(),
             seeds: sweep.seeds.clone(),
+            apart: Apart::UNEXPECTED,
             synchronised_below: sweep.synchronised_below,
             n_nodes,
             runs,
@@ -111,6 +122,11 @@ impl Simulated {
             standard_error: scatter.max(blocks.sqrt() / n),
             n_seeds: means.len(),
         })
+    }
+
+    /// Whether the errors of all pairs were observed.
+    pub fn has_pairs(&self) -> bool {
+        self.runs.iter().filter_map(completed).any(|errors| !errors.pairs.is_empty())
     }
 
     /// How many runs at one ε escaped.
@@ -182,31 +198,66 @@ impl Simulated {
     /// δx^c_m of a set of two nodes or more in one run: the mean over its pairs; none if the run
     /// escaped.
     pub fn cluster_error(&self, run: &Run, cluster: &[usize]) -> Option<f64> {
-        let errors = completed(run)?;
+        completed(run).map(|errors| self.within(errors, cluster).mean)
+    }
+
+    /// The mean error over the pairs of a cluster. Errors of one run rise and fall together: their
+    /// standard errors are averaged as they are.
+    fn within(&self, errors: &Errors, cluster: &[usize]) -> Estimate {
         assert!(cluster.len() > 1, "{} nodes have no pair", cluster.len());
         let pairs = cluster
             .iter()
             .enumerate()
             .flat_map(|(position, &i)| cluster[position + 1..].iter().map(move |&j| (i, j)));
-        let (mut sum, mut count) = (0.0, 0.0);
+        let (mut sum, mut standard_error, mut count) = (0.0, 0.0, 0.0);
         for (i, j) in pairs {
-            sum += errors.pair(i, j, self.n_nodes);
+            let pair = errors.pairs[dynamics::pair_index(i, j, self.n_nodes)];
+            sum += pair.mean;
+            standard_error += pair.standard_error;
             count += 1.0;
         }
-        Some(sum / count)
+        Estimate { mean: sum / count, standard_error: standard_error / count }
     }
 
-    /// Largest δx^c_m of some clusters at one ε, as a mean over seeds; none without clusters, or where
-    /// a run escaped.
-    pub fn largest_cluster_error(&self, position: usize, clusters: &[Vec<usize>]) -> Option<f64> {
-        let runs = self.at(position);
-        let mean = |cluster: &Vec<usize>| {
-            let errors: Option<Vec<f64>> =
-                runs.iter().map(|run| self.cluster_error(run, cluster)).collect();
-            errors.map(|errors| errors.iter().sum::<f64>() / errors.len() as f64)
+    /// Largest δx^c_m of some clusters at one ε, over seeds; none without clusters, or where a run
+    /// escaped.
+    pub fn largest_cluster_error(
+        &self,
+        position: usize,
+        clusters: &[Vec<usize>],
+    ) -> Option<OverSeeds> {
+        if self.broken_off(position) > 0 {
+            return None;
+        }
+        let of = |cluster: &Vec<usize>| self.over_seeds(position, |e| self.within(e, cluster));
+        clusters.iter().filter_map(of).max_by(|a, b| a.mean.total_cmp(&b.mean))
+    }
+
+    /// The two groups into which runs at one ε fall, each from its least to its most of their largest
+    /// errors, and how many they are; none unless they do, far apart also against the errors of the
+    /// whole sweep, since bursts scatter as well.
+    pub fn parted(&self, position: usize) -> Option<Vec<(usize, [f64; 2])>> {
+        let largest = |run: &Run| {
+            let errors = observed(completed(run)?).copied();
+            errors.reduce(|a, b| if b.mean > a.mean { b } else { a })
         };
-        let means: Option<Vec<f64>> = clusters.iter().map(mean).collect();
-        means?.into_iter().reduce(f64::max)
+        let errors: Vec<Estimate> = self.at(position).iter().filter_map(largest).collect();
+        let values: Vec<f64> = errors.iter().map(|error| error.mean).collect();
+        let own = errors.iter().map(|error| error.standard_error).fold(0.0, f64::max);
+        let of_sweep = self.runs.iter().filter_map(largest).map(|e| e.mean).fold(0.0, f64::max);
+        let found = groups(&values, own.max(BURSTS * of_sweep), self.apart)?;
+        let range = |seeds: Vec<usize>| {
+            let of = || seeds.iter().map(|&seed| values[seed]);
+            (seeds.len(), [of().fold(f64::INFINITY, f64::min), of().fold(0.0, f64::max)])
+        };
+        Some(found.into_iter().map(range).collect())
+    }
+
+    /// Below which errors of this sweep are rounding.
+    pub fn rounding(&self) -> f64 {
+        let errors = self.runs.iter().filter_map(completed).flat_map(observed);
+        let largest = errors.map(|error| error.mean).fold(0.0, f64::max);
+        PERFECT_SYNCHRONY * largest.max(1.0)
     }
 }
 
@@ -218,8 +269,15 @@ pub fn completed(run: &Run) -> Option<&Errors> {
     }
 }
 
+/// Everything that was observed of a run: pairs where they were, else what the figure shows.
+pub fn observed(errors: &Errors) -> impl Iterator<Item = &Estimate> {
+    let Errors { pairs, to_reference, within_clusters } = errors;
+    let others = to_reference.iter().chain(within_clusters);
+    pairs.iter().chain(others.take(if pairs.is_empty() { usize::MAX } else { 0 }))
+}
+
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use dynamics::Replica;
 
     use super::*;
@@ -250,6 +308,7 @@ pub(super) mod tests {
             runs: runs.collect(),
             epsilon,
             seeds: vec![1, 2],
+            apart: Apart::UNEXPECTED,
             synchronised_below: Bound::Fixed(0.1),
             n_nodes: 2,
         }
@@ -287,6 +346,16 @@ pub(super) mod tests {
         assert_eq!([0, 1].map(|at| sweep.escaped(at)), [1, 2]);
         // An average over those that happened to survive is no error of the network.
         assert_eq!(sweep.largest_cluster_error(0, &[vec![0, 1]]), None);
+    }
+
+    #[test]
+    fn runs_on_different_attractors_part_and_runs_that_burst_do_not() {
+        let mut sweep = from(1.0, &[[8.0, 1e-13], [0.4, 1e-13], [8.0, 8.2]]);
+        // Of two seeds one may have burst.
+        assert_eq!(sweep.parted(0), None);
+        sweep.apart = Apart::EXPECTED;
+        assert_eq!(sweep.parted(0), Some(vec![(1, [1e-13; 2]), (1, [8.0; 2])]));
+        assert_eq!([1, 2].map(|at| sweep.parted(at)), [None, None]);
     }
 
     #[test]

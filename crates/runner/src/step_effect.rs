@@ -1,21 +1,25 @@
-//! What the step of the integrator does to the simulated errors: at two couplings the same replicas are
+//! What the step of the integrator does to the simulated errors: at a few couplings the same replicas are
 //! run twice over the same time, at the step of the sweep and at half of it.
 //!
 //! RK4 errs in proportion to h⁴, so that halving h takes away 15/16 of what the step does to a mean,
 //! and the ratio of the two means tells nearly all of it. Orbits of two steps part soon, and means over a
 //! finite time differ by chance; how much is told by the scatter of the seeds, on a scale of logarithms,
 //! since errors near synchrony differ by decades from seed to seed. The couplings are
-//! the largest at which no run escaped, where RK4 is nearest to its limit of stability, and the largest
-//! of those at which nodes are not synchronised, where errors are small and bursts depend on everything.
+//! the largest at which no run escaped, where RK4 is nearest to its limit of stability, the largest of
+//! those at which nodes are not synchronised, where errors are small and bursts depend on everything, and
+//! the smallest at which a run escaped, which the step alone may be the reason of.
 //!
 //! Source: E. Hairer, S. P. Nørsett & G. Wanner, Solving Ordinary Differential Equations I (1993),
 //! Sec. II.4, on errors from two step sizes.
+
+use std::fmt;
 
 use dynamics::{Errors, Estimate, Method, Replica, Run, Schedule};
 use serde::{Deserialize, Serialize};
 
 use crate::plan::Sweep;
-use crate::simulated::{Simulated, completed};
+use crate::problem::plain;
+use crate::simulated::{Simulated, completed, observed};
 use crate::table::two_digits;
 use crate::warning::Warnings;
 
@@ -67,8 +71,7 @@ pub struct StepEffect {
 }
 
 impl Probe {
-    /// What to run after a sweep; none for an integrator that chooses its own steps, or where every
-    /// coupling has a run that escaped.
+    /// What to run after a sweep; none for an integrator that chooses its own steps.
     pub fn of(sweep: &Sweep, simulated: &Simulated) -> Option<Self> {
         if sweep.method != Method::Rk4 {
             return None;
@@ -159,20 +162,55 @@ impl StepEffect {
     }
 }
 
-/// The largest coupling at which no run escaped, and the largest of these at which nodes are not
-/// synchronised; the one in the middle where these are one.
+impl fmt::Display for StepEffect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "epsilon = {}", plain(self.epsilon))?;
+        let is_rounding = |error: [f64; 2]| error[0].max(error[1]) <= ROUNDING;
+        let [at_step, at_half] = self.escaped;
+        if at_step + at_half > 0 {
+            return write!(f, " ({at_step} of {SEEDS} runs escaped, {at_half} at half the step)");
+        }
+        match (self.error, self.log_ratio, self.standard_error) {
+            (Some(error), ..) if is_rounding(error) => f.write_str(" (errors are rounding)"),
+            (Some(_), Some(ratio), Some(error)) => write!(
+                f,
+                " (errors {} times as large, {} to {})",
+                two_digits(libm::exp(ratio)),
+                two_digits(libm::exp(ratio - error)),
+                two_digits(libm::exp(ratio + error))
+            ),
+            _ => f.write_str(" (too few runs stayed bounded)"),
+        }
+    }
+}
+
+/// At which couplings it was looked, and that it was at no others; none without any.
+pub fn looked_at(effects: &[StepEffect]) -> Option<String> {
+    let step = effects.first()?.step;
+    let each: Vec<String> = effects.iter().map(StepEffect::to_string).collect();
+    Some(format!(
+        "half the step of {} was tried at {}; at no other epsilon",
+        plain(step),
+        each.join(" and ")
+    ))
+}
+
+/// The largest coupling at which no run escaped, the largest of these at which nodes are not synchronised
+/// (the one in the middle where these are one), and the smallest at which a run escaped.
 fn couplings(simulated: &Simulated) -> Vec<f64> {
-    let bounded: Vec<usize> = (0..simulated.epsilon.len())
-        .filter(|&at| simulated.epsilon[at] > 0.0 && simulated.broken_off(at) == 0)
-        .collect();
-    let Some(&last) = bounded.last() else { return Vec::new() };
+    let (lost, bounded): (Vec<usize>, Vec<usize>) = (0..simulated.epsilon.len())
+        .filter(|&at| simulated.epsilon[at] > 0.0)
+        .partition(|&at| simulated.broken_off(at) > 0);
     let is_apart = |at: &usize| {
         let errors = simulated.at(*at).iter().filter_map(completed).map(largest);
         errors.fold(0.0, f64::max) >= simulated.bound(*at)
     };
-    let apart = bounded.iter().copied().rev().find(is_apart).filter(|&at| at != last);
-    let other = apart.unwrap_or(bounded[bounded.len() / 2]);
-    let mut positions = vec![other, last];
+    let mut positions: Vec<usize> = lost.first().copied().into_iter().collect();
+    if let Some(&last) = bounded.last() {
+        let apart = bounded.iter().copied().rev().find(is_apart).filter(|&at| at != last);
+        positions.extend([apart.unwrap_or(bounded[bounded.len() / 2]), last]);
+    }
+    positions.sort_unstable();
     positions.dedup();
     positions.into_iter().map(|at| simulated.epsilon[at]).collect()
 }
@@ -187,13 +225,6 @@ fn shortened(schedule: Schedule, share: f64) -> Schedule {
     let shorter = transient.min(FOR_TRANSIENT * time);
     let least = dynamics::BLOCKS as f64 * schedule.sampling_interval();
     Schedule { transient: shorter, average: (time - shorter).max(least).min(average), ..schedule }
-}
-
-/// Everything that was observed of a run: pairs where they were, else what the figure shows.
-fn observed(errors: &Errors) -> impl Iterator<Item = &Estimate> {
-    let Errors { pairs, to_reference, within_clusters } = errors;
-    let others = to_reference.iter().chain(within_clusters);
-    pairs.iter().chain(others.take(if pairs.is_empty() { usize::MAX } else { 0 }))
 }
 
 fn largest(errors: &Errors) -> f64 {
@@ -230,6 +261,7 @@ fn compare(pairs: &[[&Errors; 2]]) -> Option<([f64; 2], f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulated::tests::from;
 
     fn errors(mean: f64) -> Errors {
         Errors { pairs: vec![Estimate { mean, standard_error: 0.0 }; 3], ..Errors::default() }
@@ -252,6 +284,17 @@ mod tests {
         assert!(of([[1.0, 0.0], [2.0, 1.0], [4.0, 1.0]]).is_none(), "no ratio to nothing");
         let one = [errors(1.0), errors(2.0)];
         assert!(compare(&[one.each_ref()]).is_none(), "of one seed nothing is known");
+    }
+
+    #[test]
+    fn couplings_are_the_strongest_bounded_and_unsynchronised_and_the_first_that_escapes() {
+        let escapes = [f64::INFINITY; 2];
+        let of = |errors: &[[f64; 2]]| couplings(&from(1.0, errors));
+        let (apart, together) = ([5.0; 2], [0.0; 2]);
+        assert_eq!(of(&[apart, apart, together, together]), [2.0, 4.0]);
+        assert_eq!(of(&[apart, together, [5.0, f64::INFINITY], escapes]), [1.0, 2.0, 3.0]);
+        assert_eq!(of(&[together, together, together]), [2.0, 3.0]);
+        assert_eq!(of(&[escapes, escapes]), [1.0], "the step may be why");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::agreement::Agreement;
 use crate::claims::Claim;
+use crate::output::one_line;
 use crate::simulated::{End, Known};
 
 /// Lists with more entries are abridged.
@@ -34,10 +35,13 @@ fn table(claims: &[Claim]) -> String {
         if let Some(uncertainty) = claim.uncertainty {
             obtained.push_str(&format!(" ± {}", two_digits(uncertainty)));
         }
+        if let Some(runs) = claim.runs {
+            obtained.push_str(&format!(", {runs}"));
+        }
         if claim.refined == Some(false) {
             obtained.push_str(", not as good as asked");
         }
-        let name = claim.name.replace('_', " ");
+        let name = one_line(&claim.name).replace('_', " ");
         table.add_row([name, paper, obtained, claim.tolerance.clone(), claim.verdict.to_string()]);
     }
     table.to_string()
@@ -119,11 +123,17 @@ fn end(end: &End) -> String {
         }
         Known::AtMost => format!("at most {}", limit()),
         Known::AtLeast => format!("at least {}", limit()),
-        Known::Unseen => "not seen".into(),
+        Known::Groups => end.groups.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+        Known::Unseen => match end.of_seeds.iter().flatten().count() {
+            0 => "not seen".into(),
+            seen => format!("not seen in every seed, measured in {seen} of {}", end.of_seeds.len()),
+        },
+        Known::Escaped => "escaped".into(),
         Known::NotSwept => "not swept".into(),
     };
     match end.n_escaped {
         0 => text,
+        _ if end.bound == Known::Escaped => text,
         escaped => format!("{text}, where {escaped} of {} escaped", end.of_seeds.len()),
     }
 }
@@ -158,7 +168,7 @@ pub fn times(of: &[Times]) -> String {
 pub fn readable(value: &Value) -> String {
     match value {
         Value::Null => "none".into(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => one_line(text).into_owned(),
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), four_digits),
         Value::Array(list) if list.iter().all(Value::is_array) && !list.is_empty() => {
             let inner = list.iter().filter_map(Value::as_array);
@@ -182,8 +192,7 @@ fn joined(list: &[Value], separator: &str) -> String {
 
 /// A number with four significant digits, counts whole.
 pub fn four_digits(number: f64) -> String {
-    // A zero eigenvalue is computed as 1e-16 or so.
-    if number.abs() < 1e-12 {
+    if number == 0.0 {
         return "0".into();
     }
     if number.abs() < 1e-4 {

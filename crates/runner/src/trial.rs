@@ -2,6 +2,7 @@
 //! stability function, the steps of the network, and the sampling of its errors, each by itself. They
 //! take about a second together, two for a million nodes, since what grows is clipped and scaled.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
@@ -18,6 +19,9 @@ const DIFFERENCES: f64 = 2e7;
 const LANES: usize = 16;
 /// Most steps of a tangent vector in the trial of the master stability function.
 const TANGENT_STEPS: f64 = 2e4;
+/// How often what errors cost is tried: where other programs are at work, the steps without errors may
+/// come out slower than those with them.
+const TRIES: usize = 5;
 /// Longest time from sample to sample in a trial of an adaptive method, which takes as many steps in
 /// between as it needs.
 const ADAPTIVE_INTERVAL: f64 = 0.01;
@@ -40,7 +44,7 @@ pub fn of_msf(plan: &Plan) -> Trial {
     let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
     let node = &plan.node;
     let (seconds, exponents) =
-        timed(|| master_exponents(node.model, node.coupling, &times, &tangents, &|_| ()));
+        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, &|_| ()));
     let per_step = seconds / (16.0 * times.steps() as f64);
     Trial {
         seconds: per_step * plan.msf_steps() as f64,
@@ -53,7 +57,13 @@ pub fn of_sweep(plan: &Plan, sweep: &Sweep) -> Trial {
     let bench = Bench::new(plan, sweep);
     let bare = bench.run(Observables::default());
     let observed = &sweep.observables;
-    let more = |observables: Observables| (bench.run(observables).seconds - bare.seconds).max(0.0);
+    let more = |observables: Observables| {
+        let more = |_| {
+            let bare = bench.run(Observables::default()).seconds;
+            bench.run(observables.clone()).seconds - bare
+        };
+        (0..TRIES).map(more).find(|more| *more > 0.0).unwrap_or(0.0)
+    };
     let of_nodes = match observed.pairs || observed.reference.is_some() {
         true => more(Observables { clusters: Vec::new(), ..observed.clone() }),
         false => 0.0,
@@ -105,8 +115,8 @@ impl<'a> Bench<'a> {
 
     fn run(&self, observables: Observables) -> Trial {
         let simulation = Simulation {
-            model: self.plan.node.model,
-            coupling: self.plan.node.coupling,
+            dynamics: Arc::new(self.plan.node.model),
+            coupling: self.plan.node.coupling.clone(),
             matrix: self.plan.matrix.matrix(),
             method: self.sweep.method,
             schedule: self.schedule,

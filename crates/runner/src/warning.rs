@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::output::{readable, tell};
+use crate::output::{one_line, readable, tell};
 
 /// A doubt about a number, or a thing about the input that changes what numbers mean.
 #[derive(Clone, Debug, Serialize)]
@@ -27,7 +27,7 @@ impl Warnings {
 
     /// Says a warning on standard error and keeps it.
     pub fn add(&mut self, about: &'static str, message: impl Into<String>) {
-        let message = readable(&message.into());
+        let message = readable(&one_line(&message.into()));
         tell!("warning: {}: {message}", self.id);
         self.list.push(Warning { about, message });
     }

@@ -15,8 +15,25 @@ pub struct RealModes<'a> {
     pub residuals: Vec<f64>,
     /// The modes of each eigenspace, which cover all in order.
     pub eigenspaces: Vec<Range<usize>>,
-    /// That of the spectrum.
+    /// As in [`Spectrum::tolerance`].
+    pub tolerance: f64,
+    /// As in [`Spectrum::cutoff`].
     pub cutoff: Option<f64>,
+}
+
+impl RealModes<'_> {
+    /// How far eigenvalue λ_k, counted from 0, may be off. An eigenvalue lies within the residual of it.
+    /// Those within [`Self::tolerance`] of 0 are Rayleigh quotients found by differences, and off by
+    /// r²/gap only, r the residual and gap the distance to all others (Parlett, The Symmetric Eigenvalue
+    /// Problem (1980), Sec. 11.7).
+    pub fn error(&self, k: usize) -> f64 {
+        let (lambda, residual) = (self.eigenvalues[k], self.residuals[k]);
+        let is_slow = |lambda: &f64| lambda.abs() <= self.tolerance;
+        match self.eigenvalues.iter().find(|lambda| !is_slow(lambda)) {
+            Some(next) if is_slow(&lambda) => residual.min(residual * residual / next.abs()),
+            _ => residual,
+        }
+    }
 }
 
 impl Spectrum {
@@ -42,6 +59,7 @@ impl Spectrum {
             eigenvectors: spaces().flat_map(|space| &space.basis).map(Vec::as_slice).collect(),
             residuals: spaces().flat_map(|space| &space.residuals).copied().collect(),
             eigenspaces: spaces().map(|space| space.basis.len()).map(range).collect(),
+            tolerance: self.tolerance,
             cutoff: self.cutoff,
         }
     }

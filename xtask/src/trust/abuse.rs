@@ -8,16 +8,14 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::mutation;
-use super::program::Answer;
+use super::program::{Answer, STOPS};
 use super::scene::names;
 use super::{Trial, remove};
+use super::{finite, mutation};
 use crate::root;
 
 /// Longest time that reading and checking a file may take.
 const LIMIT: Duration = Duration::from_secs(10);
-/// A run that is asked to stop does so within this time.
-const STOPS: Duration = Duration::from_secs(2);
 
 /// An experiment of a tenth of a second that has something of everything.
 const EXPERIMENT: &str = r#"title = "To be damaged"
@@ -232,7 +230,7 @@ fn names_the_place(answer: &Answer, folder: &Path) -> Result<(), String> {
 fn numbers_are_finite(results: &Path) -> Result<(), String> {
     let text = fs::read_to_string(results.join("summary.json")).map_err(|e| e.to_string())?;
     let summary: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
-    if let Some(key) = not_finite(&summary, "") {
+    if let Some(key) = finite::first_that_is_not(&summary) {
         return Err(format!("summary.json: {key} is not finite"));
     }
     // The other tables have labels in them, and a node may be called `nan`.
@@ -247,23 +245,6 @@ fn numbers_are_finite(results: &Path) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// The key of a text that is a number, but none that is finite.
-fn not_finite(value: &Value, key: &str) -> Option<String> {
-    match value {
-        Value::Object(all) => all.iter().find_map(|(k, v)| not_finite(v, &format!("{key}.{k}"))),
-        Value::Array(all) => {
-            all.iter().enumerate().find_map(|(k, v)| not_finite(v, &format!("{key}[{k}]")))
-        }
-        Value::String(text) if ["NaN", "inf", "-inf"].contains(&text.as_str()) => {
-            Some(key.to_owned())
-        }
-        Value::Number(number) if number.as_f64().is_some_and(|n| !n.is_finite()) => {
-            Some(key.to_owned())
-        }
-        _ => None,
-    }
 }
 
 /// Files of a folder with one of these endings, sorted.

@@ -104,11 +104,48 @@ impl Scene {
         self.folder.join("results")
     }
 
+    /// The hidden folder of unfinished work.
+    pub fn unfinished(&self) -> PathBuf {
+        self.results().join(format!(".{ID}.unfinished"))
+    }
+
+    /// The summary in place.
+    pub fn summary(&self) -> Result<Vec<u8>, String> {
+        let path = self.results().join(ID).join("summary.json");
+        fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    /// How many finished replicas the run that wrote the results in place took over.
+    pub fn taken_over(&self) -> Result<usize, String> {
+        let summary: Value =
+            serde_json::from_slice(&self.summary()?).map_err(|error| error.to_string())?;
+        let taken = summary["provenance"]["taken_over"]["replicas"].as_u64();
+        taken.map(|n| n as usize).ok_or_else(|| "the summary counts no replicas taken over".into())
+    }
+
     /// Whether whole results are in place, older or new, and the user's file with them.
     pub fn is_whole(&self) -> Result<(), String> {
         let now = files(&self.results().join(ID))?;
         // A user's file may have been carried along, or not yet.
         if now == self.older { Ok(()) } else { same(&now, &self.reference) }
+    }
+
+    /// The same where there may have been no room for the figure, which is a warning and costs nothing
+    /// else.
+    pub fn is_whole_but_for_a_figure(&self) -> Result<(), String> {
+        let mut summary: Value =
+            serde_json::from_slice(&self.summary()?).map_err(|error| error.to_string())?;
+        let warnings = summary["warnings"].as_array_mut();
+        let is_of_figure = |warning: &Value| warning["about"] == "figure";
+        let Some(warnings) = warnings.filter(|all| all.iter().any(is_of_figure)) else {
+            return self.is_whole();
+        };
+        warnings.retain(|warning| !is_of_figure(warning));
+        let mut now = files(&self.results().join(ID))?;
+        now.insert("summary.json".into(), summary.to_string().into_bytes());
+        let mut expected = self.reference.clone();
+        expected.retain(|name, _| !name.starts_with("figure.") || now.contains_key(name));
+        same(&now, &expected)
     }
 
     /// Whether an undisturbed run now ends with the results that it must end with, and leaves nothing
@@ -117,8 +154,15 @@ impl Scene {
         let answer = program.run(&self.folder, &["run", "sweep.toml"], PATIENCE)?;
         answer.is_one_of(&[0])?;
         same(&files(&self.results().join(ID))?, &self.reference)?;
-        let names = names(&self.results())?;
-        if names == [ID] { Ok(()) } else { Err(format!("left beside the results: {names:?}")) }
+        for (folder, expected) in
+            [(self.results(), vec![ID.to_owned()]), (self.folder.clone(), names(&self.template)?)]
+        {
+            let names = names(&folder)?;
+            if names != expected {
+                return Err(format!("{}: {names:?}, expected {expected:?}", folder.display()));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -12,12 +12,10 @@ use serde::Serialize;
 
 use crate::batches::Numbered;
 use crate::kicks::Kicks;
+use crate::node::MAX_COMPONENTS;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
-use crate::{
-    Coupling, ESCAPE_RADIUS, Next, Observer, Oscillator, Outcome, Simulation, Snapshot,
-    SparseMatrix, Start,
-};
+use crate::{ESCAPE_RADIUS, Next, Observer, Outcome, Simulation, Snapshot, Start};
 
 /// Order of the adaptive method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -40,20 +38,18 @@ pub struct Adaptive {
 }
 
 /// Runs one replica to its end; none when the observer wanted to stop.
-pub(crate) fn run<O: Oscillator<D>, const D: usize>(
-    oscillator: O,
+pub(crate) fn run(
     simulation: &Simulation<'_>,
     method: Adaptive,
     (number, start): Numbered,
     observer: &dyn Observer,
 ) -> Option<Outcome> {
-    let Simulation { schedule, observables, coupling, matrix, .. } = simulation;
+    let Simulation { schedule, observables, matrix, .. } = simulation;
     let n_nodes = matrix.rows();
-    let epsilon = start.replica.epsilon;
-    let system = Flat::<O, D> { oscillator, coupling: *coupling, matrix, epsilon };
+    let system = Flat { simulation, epsilon: start.replica.epsilon };
     let transient = schedule.transient_samples();
     let (done, end) = (start.sample(), transient + schedule.samples());
-    let mut orbit = Orbit::begin::<O, D>(simulation, start);
+    let mut orbit = Orbit::begin(simulation, start);
     let ended = |outcome: Outcome| {
         observer.finished(number, &outcome);
         Some(outcome)
@@ -112,30 +108,32 @@ struct Orbit {
 
 impl Orbit {
     /// The initial state of a replica, or that of its snapshot.
-    fn begin<O: Oscillator<D>, const D: usize>(simulation: &Simulation<'_>, start: Start) -> Self {
-        let Simulation { schedule, observables, matrix, kick, .. } = simulation;
+    fn begin(simulation: &Simulation<'_>, start: Start) -> Self {
+        let Simulation { dynamics, schedule, observables, matrix, kick, .. } = simulation;
+        let n_components = dynamics.start().len();
         let (n_nodes, replica) = (matrix.rows(), start.replica);
         let mut kicks = Kicks::new(*kick, schedule.sampling_interval(), [replica]);
         let mut sums = ErrorSums::<1>::new(observables, n_nodes, schedule.samples_per_block());
         let Some(Snapshot { sample, state, sums: kept }) = start.from else {
-            let drawn = initial_states::<O, D>(n_nodes, replica.seed);
-            let y = DVector::from_fn(D * n_nodes, |row, _| drawn[row % n_nodes][row / n_nodes]);
+            let drawn = initial_states(dynamics.start(), n_nodes, replica.seed);
+            let of = |row: usize| drawn[row % n_nodes * n_components + row / n_nodes];
+            let y = DVector::from_fn(n_components * n_nodes, |row, _| of(row));
             return Self { y, sums, kicks };
         };
         if let Some(averaged) = sample.checked_sub(schedule.transient_samples() + 1) {
             sums.restore(0, &kept);
             sums.go_on_after(averaged + 1);
         }
-        kicks.go_on_after(sample, D * n_nodes);
+        kicks.go_on_after(sample, n_components * n_nodes);
         Self { y: DVector::from_vec(state), sums, kicks }
     }
 }
 
 impl Adaptive {
     /// Takes y forward by a time, or as far as the solver gets.
-    fn advance<O: Oscillator<D>, const D: usize>(
+    fn advance(
         self,
-        system: &Flat<'_, O, D>,
+        system: &Flat<'_>,
         y: &mut DVector<f64>,
         time: f64,
     ) -> Result<(), IntegrationError> {
@@ -161,24 +159,32 @@ impl Adaptive {
 
 /// A network at one coupling as one flat system: all nodes of the first component, then the next.
 #[derive(Clone, Copy)]
-struct Flat<'a, O, const D: usize> {
-    oscillator: O,
-    coupling: Coupling,
-    matrix: &'a SparseMatrix,
+struct Flat<'a> {
+    simulation: &'a Simulation<'a>,
     epsilon: f64,
 }
 
-impl<O: Oscillator<D>, const D: usize> System<f64, DVector<f64>> for Flat<'_, O, D> {
+impl System<f64, DVector<f64>> for Flat<'_> {
     fn system(&self, _time: f64, y: &DVector<f64>, slope: &mut DVector<f64>) {
-        let n_nodes = self.matrix.rows();
-        let source = &y.as_slice()[self.coupling.from * n_nodes..][..n_nodes];
-        for (node, row) in self.matrix.outer_iterator().enumerate() {
-            let flow = self.oscillator.flow(std::array::from_fn(|c| y[c * n_nodes + node]));
-            for (c, value) in flow.into_iter().enumerate() {
-                slope[c * n_nodes + node] = value;
+        let Simulation { dynamics, coupling, matrix, instruction_set, .. } = self.simulation;
+        let n_nodes = matrix.rows();
+        let mut at: [&[f64]; MAX_COMPONENTS] = [&[]; MAX_COMPONENTS];
+        let mut n_components = 0;
+        for (at, component) in at.iter_mut().zip(y.as_slice().chunks(n_nodes)) {
+            *at = component;
+            n_components += 1;
+        }
+        let mut to: [&mut [f64]; MAX_COMPONENTS] = std::array::from_fn(|_| &mut [][..]);
+        for (to, component) in to.iter_mut().zip(slope.as_mut_slice().chunks_mut(n_nodes)) {
+            *to = component;
+        }
+        dynamics.flow(*instruction_set, &at[..n_components], &mut to[..n_components]);
+        for (equation, component, weight) in coupling.derivative() {
+            let (source, strength) = (at[component], self.epsilon * weight);
+            for (node, row) in matrix.outer_iterator().enumerate() {
+                let input: f64 = row.iter().map(|(j, &w)| w * source[j]).sum();
+                to[equation][node] += strength * input;
             }
-            let input: f64 = row.iter().map(|(j, &w)| w * source[j]).sum();
-            slope[self.coupling.to * n_nodes + node] += self.epsilon * input;
         }
     }
 }

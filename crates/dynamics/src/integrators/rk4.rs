@@ -7,7 +7,8 @@
 //!
 //! Source: W. Kutta, Z. Math. Phys. 46, 435 (1901).
 
-use crate::Scalar;
+use crate::node::MAX_COMPONENTS;
+use crate::{InstructionSet, NodeDynamics, Scalar};
 
 /// Of each stage: its weight in the step, and how far it advances x for the next stage, both in h.
 pub(crate) const STAGES: [(f64, f64); 4] =
@@ -35,6 +36,31 @@ pub(crate) fn step<S: Scalar, const D: usize>(
         }
     }
     sum
+}
+
+/// One step of a single node whose equations are chosen at run time: the same operations.
+pub(crate) fn advance<N: NodeDynamics + ?Sized>(dynamics: &N, state: &mut [f64], h: f64) {
+    let (mut sum, mut ahead, mut slope) =
+        ([0.0; MAX_COMPONENTS], [0.0; MAX_COMPONENTS], [0.0; MAX_COMPONENTS]);
+    let n = state.len();
+    sum[..n].copy_from_slice(state);
+    ahead[..n].copy_from_slice(state);
+    for (weight, advance) in STAGES {
+        let mut at: [&[f64]; MAX_COMPONENTS] = [&[]; MAX_COMPONENTS];
+        for (at, x) in at.iter_mut().zip(ahead.chunks(1)) {
+            *at = x;
+        }
+        let mut to: [&mut [f64]; MAX_COMPONENTS] = std::array::from_fn(|_| &mut [][..]);
+        for (to, slope) in to.iter_mut().zip(slope.chunks_mut(1)) {
+            *to = slope;
+        }
+        dynamics.flow(InstructionSet::Baseline, &at[..n], &mut to[..n]);
+        for c in 0..n {
+            sum[c] += slope[c] * (weight * h);
+            ahead[c] = state[c] + slope[c] * (advance * h);
+        }
+    }
+    state.copy_from_slice(&sum[..n]);
 }
 
 #[cfg(test)]

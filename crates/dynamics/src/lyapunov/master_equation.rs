@@ -1,4 +1,5 @@
-//! The master equation `ṡ = F(s)`, `δẏ = [DF(s) − σ DH] δy` of many σ side by side.
+//! The master equation `ṡ = F(s)`, `δẏ = [DF(s) − σ DH] δy` of many σ side by side, for equations that
+//! are compiled.
 //!
 //! Tangents are lanes of dual numbers. Those about one orbit share it as a plain number, computed
 //! once; tangents with orbits of their own carry these in lanes as well. Either way each goes through
@@ -7,20 +8,42 @@
 use std::marker::PhantomData;
 use std::ops::Mul;
 
-use super::{MAX_LANES, Plan, Tangent, estimates, normalise};
+use super::{Growing, MAX_LANES, Tangents, estimates, log};
 use crate::instruction_set::Work;
-use crate::integrators::rk4::Flow;
+use crate::integrators::rk4::{self, Flow};
 use crate::random::initial_states;
 use crate::{
-    Coupling, Dual, DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet, Lanes, Oscillator,
-    Progress, Scalar,
+    Dual, DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet, Lanes, Oscillator, Scalar,
 };
 
+/// Exponents of compiled equations, in as many lanes as they need, about one orbit where they have one.
+pub(crate) fn fused<O: Oscillator<D>, const D: usize>(
+    oscillator: O,
+    set: InstructionSet,
+    tangents: &Tangents<'_>,
+) -> Result<Vec<Estimate>, DynamicsError> {
+    let of = tangents.tangents;
+    let one_orbit = of.iter().all(|tangent| tangent.seed == of[0].seed);
+    macro_rules! run {
+        ($orbit:ty, $lanes:expr) => {
+            set.run(InLanes::<O, $orbit, D, { $lanes }>(oscillator, tangents, PhantomData))
+        };
+    }
+    match (one_orbit, of.len()) {
+        (true, 1) => run!(f64, 1),
+        (true, 2..=8) => run!(f64, 8),
+        (true, _) => run!(f64, MAX_LANES),
+        (false, ..=4) => run!(Lanes<4>, 4),
+        (false, 5..=8) => run!(Lanes<8>, 8),
+        (false, _) => run!(Lanes<MAX_LANES>, MAX_LANES),
+    }
+}
+
 /// `ṡ = F(s)` with `δẏ = [DF(s) − σ DH] δy`, a σ for each tangent.
-pub(super) struct MasterEquation<O, const L: usize> {
-    pub(super) oscillator: O,
-    pub(super) coupling: Coupling,
-    pub(super) sigma: Lanes<L>,
+struct MasterEquation<O, const L: usize> {
+    oscillator: O,
+    /// Equation, component and σ B of every entry of DH.
+    damping: Vec<(usize, usize, Lanes<L>)>,
 }
 
 impl<O: Oscillator<D>, V: Orbit, const D: usize, const L: usize> Flow<Dual<V, Lanes<L>>, D>
@@ -31,11 +54,13 @@ where
     #[inline(always)]
     fn at(&self, state: [Dual<V, Lanes<L>>; D]) -> [Dual<V, Lanes<L>>; D] {
         let mut slope = self.oscillator.flow(state);
-        for c in 0..D {
-            if c == self.coupling.to {
-                // Named in full, since V might be other lanes.
-                let damping = Mul::<Lanes<L>>::mul(self.sigma, state[self.coupling.from].tangent);
-                slope[c].tangent = slope[c].tangent - damping;
+        for &(equation, component, sigma) in &self.damping {
+            for c in 0..D {
+                if c == equation {
+                    // Named in full, since V might be other lanes.
+                    let damping = Mul::<Lanes<L>>::mul(sigma, state[component].tangent);
+                    slope[c].tangent = slope[c].tangent - damping;
+                }
             }
         }
         slope
@@ -43,7 +68,7 @@ where
 }
 
 /// The orbit that tangents follow: a plain number for one orbit, lanes for one to each tangent.
-pub(super) trait Orbit: Scalar {
+trait Orbit: Scalar {
     /// From the same component of the orbit of each tangent.
     fn from_lanes(lanes: &[f64]) -> Self;
 
@@ -73,44 +98,8 @@ impl<const L: usize> Orbit for Lanes<L> {
     }
 }
 
-/// Tangents advanced together, at most [`MAX_LANES`].
-pub(super) struct Batch<'a, O> {
-    pub(super) oscillator: O,
-    pub(super) coupling: Coupling,
-    pub(super) plan: &'a Plan,
-    pub(super) tangents: &'a [Tangent],
-    pub(super) progress: Progress<'a>,
-}
-
-/// A batch in `L` lanes about an orbit of type `V`.
-struct InLanes<'a, O, V, const D: usize, const L: usize>(Batch<'a, O>, PhantomData<V>);
-
-impl<O> Batch<'_, O> {
-    /// Runs the batch in as many lanes as it needs, about one orbit where its tangents have one.
-    pub(super) fn run_with<const D: usize>(
-        self,
-        instruction_set: InstructionSet,
-    ) -> Result<Vec<Estimate>, DynamicsError>
-    where
-        O: Oscillator<D>,
-    {
-        let seed = self.tangents[0].seed;
-        let one_orbit = self.tangents.iter().all(|tangent| tangent.seed == seed);
-        macro_rules! run {
-            ($orbit:ty, $lanes:expr) => {
-                instruction_set.run(InLanes::<O, $orbit, D, { $lanes }>(self, PhantomData))
-            };
-        }
-        match (one_orbit, self.tangents.len()) {
-            (true, 1) => run!(f64, 1),
-            (true, 2..=8) => run!(f64, 8),
-            (true, _) => run!(f64, MAX_LANES),
-            (false, ..=4) => run!(Lanes<4>, 4),
-            (false, 5..=8) => run!(Lanes<8>, 8),
-            (false, _) => run!(Lanes<MAX_LANES>, MAX_LANES),
-        }
-    }
-}
+/// Tangents in `L` lanes about an orbit of type `V`.
+struct InLanes<'a, O, V, const D: usize, const L: usize>(O, &'a Tangents<'a>, PhantomData<V>);
 
 impl<O: Oscillator<D>, V: Orbit, const D: usize, const L: usize> Work for InLanes<'_, O, V, D, L>
 where
@@ -120,20 +109,61 @@ where
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Batch { oscillator, coupling, plan, tangents, progress } = self.0;
+        let Self(oscillator, Tangents { coupling, plan, tangents, progress }, _) = self;
         // Lanes beyond the batch repeat its last tangent and are never read.
         let tangent = |lane: usize| tangents[lane.min(tangents.len() - 1)];
-        let sigma = Lanes(std::array::from_fn(|lane| tangent(lane).sigma));
-        let equation = MasterEquation { oscillator, coupling, sigma };
-        let orbits: [[f64; D]; L] =
-            std::array::from_fn(|lane| initial_states::<O, D>(1, tangent(lane).seed)[0]);
+        let sigma = |weight| Lanes(std::array::from_fn(|lane| tangent(lane).sigma * weight));
+        let damping = coupling.derivative().map(|(d, c, weight)| (d, c, sigma(weight)));
+        let equation = MasterEquation { oscillator, damping: damping.collect() };
+        let orbits: [Vec<f64>; L] =
+            std::array::from_fn(|lane| initial_states(&O::START, 1, tangent(lane).seed));
         let state = std::array::from_fn(|c| Dual {
-            value: V::from_lanes(&orbits.map(|orbit| orbit[c])),
+            value: V::from_lanes(&std::array::from_fn::<f64, L, _>(|lane| orbits[lane][c])),
             tangent: Lanes([1.0; L]),
         });
         let count = tangents.len();
-        let blocks =
-            plan.block_means(&equation, state, normalise, |steps| progress(steps * count as u64))?;
+        let blocks = plan.block_means(&mut Growth { equation, state }, |steps| {
+            progress(steps * count as u64);
+        })?;
         Ok(estimates(&blocks, count))
+    }
+}
+
+/// Orbits and tangents as they are.
+struct Growth<O, V, const D: usize, const L: usize> {
+    equation: MasterEquation<O, L>,
+    state: [Dual<V, Lanes<L>>; D],
+}
+
+impl<O: Oscillator<D>, V: Orbit, const D: usize, const L: usize> Growing<L> for Growth<O, V, D, L>
+where
+    Lanes<L>: Mul<V, Output = Lanes<L>>,
+{
+    #[inline(always)]
+    fn advance(&mut self, n_steps: u64, h: f64) {
+        let mut state = self.state;
+        for _ in 0..n_steps {
+            state = rk4::step(&self.equation, state, h);
+        }
+        self.state = state;
+    }
+
+    #[inline(always)]
+    fn is_bounded(&self) -> bool {
+        self.state.iter().all(|component| component.value.is_bounded())
+    }
+
+    #[inline(always)]
+    fn renormalise(&mut self) -> [f64; L] {
+        let mut logs = [0.0; L];
+        for lane in 0..L {
+            let square = |x: &Dual<V, Lanes<L>>| x.tangent.0[lane] * x.tangent.0[lane];
+            let length = self.state.iter().map(square).sum::<f64>().sqrt();
+            for x in &mut self.state {
+                x.tangent.0[lane] /= length;
+            }
+            logs[lane] = log(length);
+        }
+        logs
     }
 }

@@ -10,7 +10,12 @@ pub use hindmarsh_rose::HindmarshRose;
 pub use lorenz::Lorenz;
 pub use rossler::Rossler;
 
-use crate::Oscillator;
+use crate::lyapunov::Tangents;
+use crate::stage::Stage;
+use crate::{
+    DynamicsError, Estimate, InstructionSet, Linearised, LinearisedMut, Native, NodeDynamics,
+    Oscillator,
+};
 
 /// Declares [`Model`]: one line here is all that a new oscillator needs beyond its own file.
 macro_rules! models {
@@ -21,15 +26,49 @@ macro_rules! models {
             $($(#[$doc])* #[serde(rename = $tag)] $name($name)),*
         }
 
+        impl NodeDynamics for Model {
+            fn components(&self) -> Vec<&str> {
+                match self { $(Self::$name(_) => <$name as Oscillator<_>>::COMPONENTS.to_vec()),* }
+            }
+
+            fn start(&self) -> &[[f64; 2]] {
+                match self { $(Self::$name(_) => &<$name as Oscillator<_>>::START),* }
+            }
+
+            fn flow(&self, set: InstructionSet, x: &[&[f64]], slope: &mut [&mut [f64]]) {
+                match self { $(Self::$name(o) => Native::new(*o).flow(set, x, slope)),* }
+            }
+
+            fn tangent_flow(
+                &self,
+                set: InstructionSet,
+                at: Linearised<'_>,
+                slope: LinearisedMut<'_, '_>,
+            ) {
+                match self { $(Self::$name(o) => Native::new(*o).tangent_flow(set, at, slope)),* }
+            }
+
+            fn advance(&self, state: &mut [f64], h: f64) {
+                match self { $(Self::$name(o) => Native::new(*o).advance(state, h)),* }
+            }
+
+            fn stage(&self, set: InstructionSet, stage: &mut Stage<'_, '_>) {
+                match self { $(Self::$name(o) => Native::new(*o).stage(set, stage)),* }
+            }
+
+            fn exponents(
+                &self,
+                set: InstructionSet,
+                tangents: &Tangents<'_>,
+            ) -> Result<Vec<Estimate>, DynamicsError> {
+                match self { $(Self::$name(o) => Native::new(*o).exponents(set, tangents)),* }
+            }
+        }
+
         impl Model {
             /// The oscillator's name in experiment files.
             pub fn name(&self) -> &'static str {
                 match self { $(Self::$name(_) => $tag),* }
-            }
-
-            /// Names of its components, in order.
-            pub fn components(&self) -> &'static [&'static str] {
-                match self { $(Self::$name(_) => &<$name as Oscillator<_>>::COMPONENTS),* }
             }
 
             /// Every oscillator there is, with its default parameters.
@@ -37,14 +76,6 @@ macro_rules! models {
                 vec![$(Self::$name($name::default())),*]
             }
         }
-
-        /// Runs an expression with the concrete oscillator of a [`Model`] bound to a name.
-        macro_rules! with_oscillator {
-            ($model:expr, $oscillator:ident => $body:expr) => {
-                match $model { $($crate::oscillators::Model::$name($oscillator) => $body),* }
-            };
-        }
-        pub(crate) use with_oscillator;
     };
 }
 

@@ -6,38 +6,75 @@ use clustering::{Partition, RegionClusters};
 use graph::Network;
 use serde_json::{Value, json};
 
+use super::obtained::{not_predicted, nothing_left};
 use super::{Answer, Judge, Judged};
 use crate::plan::nodes_named;
-use crate::problem::Result;
+use crate::problem::{Result, plain};
+use crate::simulated::Known;
 use crate::spec::{Name, Quantity};
+
+/// Clusters without an order.
+type Clusters = BTreeSet<BTreeSet<usize>>;
+
+/// Clusters that are found, or none where nothing is predicted.
+type Found = Option<Vec<Vec<usize>>>;
 
 impl Judge<'_> {
     pub(super) fn clusters(&self) -> Result<Judged> {
         let paper: Vec<Vec<Name>> = self.equals("a list of clusters")?;
-        let obtained = self.epsilon().first().and_then(|&epsilon| self.clusters_at(epsilon));
-        let stated: BTreeSet<BTreeSet<usize>> =
-            self.nodes(&paper).into_iter().map(|cluster| cluster.into_iter().collect()).collect();
-        let Some(clusters) = obtained else {
-            return Ok(Judged::new(json!(texts(&paper)), Value::Null, "exact", false));
+        let stated = as_sets(&self.nodes(&paper));
+        let epsilon = self.epsilon().first().copied().unwrap_or_default();
+        let (obtained, answer) = match self.clusters_at(epsilon) {
+            Ok(found) => {
+                let clusters = found[0].as_deref().unwrap_or_default();
+                let shown = json!(named(clusters, &self.plan.network));
+                (shown, self.is_one_of(&stated, &found))
+            }
+            Err(why) => (Value::Null, why.map_or(Answer::Differs, Answer::CannotBeJudged)),
         };
-        let found = clusters.iter().map(|cluster| cluster.iter().copied().collect()).collect();
-        let shown = named(&clusters, &self.plan.network);
-        Ok(Judged::new(json!(texts(&paper)), json!(shown), "exact", stated == found))
+        Ok(Judged::new(json!(texts(&paper)), obtained, "exact", answer))
     }
 
-    fn clusters_at(&self, epsilon: f64) -> Option<Vec<Vec<usize>>> {
+    /// Whether these are the clusters, whichever of those found is right; the first is shown.
+    fn is_one_of(&self, stated: &Clusters, found: &[Found]) -> Answer {
+        let is_stated = |found: &&Found| found.as_ref().is_some_and(|f| as_sets(f) == *stated);
+        let holds = found.iter().filter(is_stated).count();
+        match holds {
+            0 => Answer::Differs,
+            all if all == found.len() => Answer::Holds,
+            _ => Answer::CannotBeJudged(format!(
+                "a critical coupling is not known well enough to tell on which side of it epsilon = {} \
+                 lies",
+                plain(self.epsilon()[0])
+            )),
+        }
+    }
+
+    /// The clusters found at an ε, several where it is not known which; else why there are none.
+    fn clusters_at(&self, epsilon: f64) -> std::result::Result<Vec<Found>, Option<String>> {
         let findings = self.findings;
         if self.spec.of == Quantity::CascadeClusters {
-            return findings.predicted_at(epsilon).map(Partition::nontrivial);
+            let here = findings.predicted_at(epsilon).ok_or_else(|| not_predicted(epsilon))?;
+            let near = findings.predicted_about(epsilon).into_iter();
+            let found = std::iter::once(Some(here)).chain(near);
+            return Ok(found.map(|found| found.map(Partition::nontrivial)).collect());
         }
-        let simulated = findings.simulated.as_ref()?;
-        let position = simulated.position(epsilon)?;
-        let regions = || findings.agreement.get(position)?.regions.as_ref();
-        match self.spec.of {
-            Quantity::PredictedRegions => Some(self.of_regions(&regions()?.predicted)),
-            Quantity::SimulatedRegions => Some(self.of_regions(&regions()?.simulated)),
-            _ => simulated.clusters(position).map(|clusters| clusters.nontrivial()),
-        }
+        let simulated = findings.simulated.as_ref().ok_or(None)?;
+        let position = simulated.position(epsilon).ok_or(None)?;
+        let regions = || {
+            let agreement = findings.agreement.get(position);
+            let regions = agreement.and_then(|agreement| agreement.regions.as_ref());
+            regions.ok_or_else(|| self.not_compared(position))
+        };
+        let found = match self.spec.of {
+            Quantity::PredictedRegions => self.of_regions(&regions()?.predicted),
+            Quantity::SimulatedRegions => self.of_regions(&regions()?.simulated),
+            _ => {
+                let clusters = simulated.clusters(position);
+                clusters.ok_or_else(|| nothing_left(simulated, position))?.nontrivial()
+            }
+        };
+        Ok(vec![Some(found)])
     }
 
     /// Clusters of regions as clusters of their nodes.
@@ -53,15 +90,14 @@ impl Judge<'_> {
     pub(super) fn order(&self) -> Result<Judged> {
         let paper: Vec<usize> = self.equals("a list of positions")?;
         let clusters = self.nodes(self.spec.at.clusters.as_deref().unwrap_or_default());
-        let lost_between = |cluster: &Vec<usize>| match self.spec.of {
-            Quantity::CascadeOrder => {
-                self.findings.predicted_loss(cluster).map(|lost| [lost, lost])
-            }
-            _ => self.findings.seen(std::slice::from_ref(cluster))?.onset.interval,
-        };
-        let lost: Option<Vec<[f64; 2]>> = clusters.iter().map(lost_between).collect();
-        let Some(lost) = lost else {
-            return Ok(Judged::new(json!(paper), Value::Null, "exact", false));
+        let lost: std::result::Result<Vec<[f64; 2]>, Answer> = clusters
+            .iter()
+            .enumerate()
+            .map(|(at, cluster)| self.lost_between(at, cluster))
+            .collect();
+        let lost = match lost {
+            Ok(lost) => lost,
+            Err(answer) => return Ok(Judged::new(json!(paper), Value::Null, "exact", answer)),
         };
         let predicted = self.spec.of == Quantity::CascadeOrder;
         let answer = follows(&paper, &lost, predicted);
@@ -72,6 +108,33 @@ impl Judge<'_> {
         Ok(Judged::new(json!(paper), shown, "exact", answer))
     }
 
+    /// Between which ε a cluster is lost, or what is to be said where that is not known.
+    fn lost_between(&self, at: usize, cluster: &[usize]) -> std::result::Result<[f64; 2], Answer> {
+        let findings = self.findings;
+        let which = format!("cluster {}", at + 1);
+        if self.spec.of == Quantity::CascadeOrder {
+            return match findings.predicted_loss(cluster) {
+                Some(lost) => Ok([lost, lost]),
+                None if findings.is_predicted_everywhere() => Err(Answer::Differs),
+                None => Err(Answer::CannotBeJudged(format!(
+                    "where {which} is lost is not predicted: the prediction does not reach so far"
+                ))),
+            };
+        }
+        let seen = findings.seen(&[cluster.to_vec()]).ok_or(Answer::Differs)?;
+        let why = match (seen.onset.bound, seen.onset.interval) {
+            // Where runs escape below it, it may be lost anywhere there.
+            (Known::Measured, Some([_, kept])) if seen.onset.n_escaped > 0 => {
+                return Ok([0.0, kept]);
+            }
+            (_, Some(interval)) => return Ok(interval),
+            (Known::Escaped, None) => "runs escaped wherever it was looked for",
+            (Known::NotSwept, None) => "the sweep has no point where it is predicted",
+            _ => "it was not seen in every seed",
+        };
+        Err(Answer::CannotBeJudged(format!("where {which} is lost is not known: {why}")))
+    }
+
     /// Node numbers of labels that the plan has checked.
     pub(super) fn nodes(&self, clusters: &[Vec<Name>]) -> Vec<Vec<usize>> {
         let network = &self.plan.network;
@@ -80,6 +143,10 @@ impl Judge<'_> {
         };
         clusters.iter().map(nodes).collect()
     }
+}
+
+fn as_sets(clusters: &[Vec<usize>]) -> Clusters {
+    clusters.iter().map(|cluster| cluster.iter().copied().collect()).collect()
 }
 
 /// Whether clusters that are lost somewhere between two ε each are lost in this order as ε falls. Two

@@ -2,6 +2,7 @@
 //! on from it, and every other begins at its initial state. Which of the three, no bit depends on.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -32,7 +33,7 @@ pub fn simulate(
 ) -> Result<Simulated> {
     let simulation = simulation(plan, sweep, sweep.schedule);
     let replicas = sweep.replicas();
-    let shared = (matrix(plan), plan.node, sweep.method, sweep.schedule);
+    let shared = (matrix(plan), &plan.node, sweep.method, sweep.schedule);
     let shared = Key::of(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
     let key =
         |replica: &Replica| Key::of(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
@@ -82,7 +83,7 @@ pub fn effects_of_step(
     };
     let replicas: Vec<(f64, u64, f64)> =
         probe.replicas.iter().map(|run| (run.epsilon, run.seed, bound(run))).collect();
-    let of = (matrix(plan), plan.node, sweep.method, probe.schedules, replicas);
+    let of = (matrix(plan), &plan.node, sweep.method, probe.schedules, replicas);
     let key = Key::of(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
     let effects = journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {
@@ -99,8 +100,8 @@ pub fn effects_of_step(
 
 fn simulation<'a>(plan: &'a Plan, sweep: &Sweep, schedule: Schedule) -> Simulation<'a> {
     Simulation {
-        model: plan.node.model,
-        coupling: plan.node.coupling,
+        dynamics: Arc::new(plan.node.model),
+        coupling: plan.node.coupling.clone(),
         matrix: plan.matrix.matrix(),
         method: sweep.method,
         schedule,

@@ -1,7 +1,7 @@
 //! What a figure has room for, known before anything is computed: `check` foresees it, and the figure
 //! is drawn so. Numbers are never left out with it: the tables have them all.
 
-use crate::plan::{Plan, Sweep};
+use crate::plan::{ALL_PAIRS, Plan, Sweep};
 use crate::problem::plain;
 use crate::spec::FigureKind;
 
@@ -58,13 +58,19 @@ pub fn columns(n_epsilon: usize) -> Vec<usize> {
 /// What of a plan its figure will not show as asked, in words.
 pub fn foreseen(plan: &Plan) -> Vec<String> {
     let Some(sweep) = &plan.sweep else { return Vec::new() };
-    match plan.figure().kind {
-        FigureKind::None => Vec::new(),
-        FigureKind::Sweep => of_curves(sweep, plan.network.n_nodes()).into_iter().collect(),
-        FigureKind::Matrices | FigureKind::Regions => {
-            of_columns(&sweep.epsilon).into_iter().collect()
-        }
-    }
+    let asked_for = plan.figure().kind;
+    let room = match plan.figure_kind() {
+        FigureKind::None => None,
+        FigureKind::Sweep => of_curves(sweep, plan.network.n_nodes()),
+        FigureKind::Matrices | FigureKind::Regions => of_columns(&sweep.epsilon),
+    };
+    let instead = (asked_for != plan.figure_kind()).then(|| {
+        format!(
+            "there are no matrices: the errors of all pairs are kept for networks of up to \
+             {ALL_PAIRS} nodes; the sweep is shown instead"
+        )
+    });
+    instead.into_iter().chain(room).collect()
 }
 
 fn of_curves(sweep: &Sweep, n_nodes: usize) -> Option<String> {

@@ -156,12 +156,13 @@ pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, [left, middle]: Poi
 }
 
 /// Upper left corner of a box beside a point, in the quadrant where it covers least of `points`
-/// and stays within the frame if any does.
+/// and, if any does, stays within the frame and clear of other boxes.
 pub(super) fn beside(
     [x, y]: Point,
     [width, height]: [f64; 2],
     frame: Rect,
     points: &[Point],
+    boxes: &[Rect],
 ) -> Point {
     let gap = 3.5;
     let corners = [
@@ -174,7 +175,14 @@ pub(super) fn beside(
         let covered = Rect { left, top, right: left + width, bottom: top + height };
         let inside = frame.contains([left, top]) && frame.contains([covered.right, covered.bottom]);
         let hidden = points.iter().filter(|&&p| covered.grown(1.5).contains(p)).count();
-        hidden + if inside { 0 } else { points.len() + 1 }
+        let is_met = |other: &&Rect| {
+            left < other.right
+                && other.left < covered.right
+                && top < other.bottom
+                && other.top < covered.bottom
+        };
+        let faults = boxes.iter().filter(is_met).count() + usize::from(!inside);
+        hidden + faults * (points.len() + 1)
     };
     corners.into_iter().min_by_key(|&corner| cost(corner)).expect("there are four corners")
 }
@@ -234,7 +242,7 @@ mod tests {
     #[test]
     fn a_note_goes_to_the_side_without_data() {
         let falling: Vec<Point> = (0..100).map(|k| [f64::from(k), f64::from(k)]).collect();
-        let [left, top] = beside([50.0, 50.0], [20.0, 8.0], FRAME, &falling);
+        let [left, top] = beside([50.0, 50.0], [20.0, 8.0], FRAME, &falling, &[]);
         assert!(left > 50.0 && top < 50.0);
     }
 }

@@ -11,7 +11,9 @@ use super::label::Label;
 use super::legend::{self, Entry};
 use super::markers::{self, MarkerGroup};
 use super::series::{self, Series};
-use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, LINK_INK, NOTE_SIZE, SHADE, Stroke, TICK_SIZE};
+use super::style::{
+    AXIS_WIDTH, INK, LABEL_SIZE, LINK_INK, NOTE_SIZE, SHADE, Stroke, TICK_SIZE, YELLOW_SHADE,
+};
 
 const TICK_LENGTH: f64 = 3.0;
 /// Room under the frame for numbers and the name of the axis.
@@ -51,16 +53,43 @@ pub struct LinePanel {
     pub markers: Vec<MarkerGroup>,
     /// Labelled points.
     pub notes: Vec<Note>,
-    /// Spans of x with a grey background, [from, to].
-    pub shaded: Vec<[f64; 2]>,
-    /// What these are, in the legend; an empty label for no entry.
-    pub shaded_label: Label,
+    /// Spans of x with a background, those of the last on top.
+    pub shaded: Vec<Shade>,
     /// Whether every point stands alone as a mark, rather than joined to the next by a line; the
     /// spread is not drawn then.
     pub marks_only: bool,
     /// Named spans of x, with thin lines at their ends. Names stand above the frame where there
     /// is room, and nowhere where vertical markers have labels there.
     pub spans: Vec<Span>,
+}
+
+/// Spans of x with the same background.
+#[derive(Clone, Debug)]
+pub struct Shade {
+    /// [from, to].
+    pub spans: Vec<[f64; 2]>,
+    /// What they are, in the legend; an empty label for no entry.
+    pub label: Label,
+    /// Which background.
+    pub tone: Tone,
+}
+
+/// A background.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// Light grey.
+    Grey,
+    /// Light yellow.
+    Yellow,
+}
+
+impl Tone {
+    fn ink(self) -> &'static str {
+        match self {
+            Self::Grey => SHADE,
+            Self::Yellow => YELLOW_SHADE,
+        }
+    }
 }
 
 /// A named span of x, such as the nodes of one community.
@@ -191,11 +220,11 @@ impl LinePanel {
             let stroke = markers::stroke(g.style);
             Some(Entry { has_line: true, stroke, shape: None, label })
         });
-        let shade = Some(&self.shaded_label).filter(|label| !label.is_empty()).map(|label| {
-            let stroke = Stroke::solid(SHADE, SHADE_SAMPLE);
-            Entry { has_line: true, stroke, shape: None, label }
+        let shades = self.shaded.iter().filter(|shade| !shade.label.is_empty()).map(|shade| {
+            let stroke = Stroke::solid(shade.tone.ink(), SHADE_SAMPLE);
+            Entry { has_line: true, stroke, shape: None, label: &shade.label }
         });
-        curves.chain(lines).chain(shade).collect()
+        curves.chain(lines).chain(shades).collect()
     }
 
     fn legend_place(&self, entries: &[Entry], frame: Rect, axes: Axes) -> Option<Point> {
@@ -215,9 +244,11 @@ impl LinePanel {
 
     fn draw_data(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
         canvas.clipped(frame, |canvas| {
-            for &[from, to] in &self.shaded {
-                if let (Some(left), Some(right)) = (axes.x.at(from), axes.x.at(to)) {
-                    canvas.rect(Rect { left, right, ..frame }, SHADE);
+            for shade in &self.shaded {
+                for &[from, to] in &shade.spans {
+                    if let (Some(left), Some(right)) = (axes.x.at(from), axes.x.at(to)) {
+                        canvas.rect(Rect { left, right, ..frame }, shade.tone.ink());
+                    }
                 }
             }
             if let (true, Some(y)) = (self.zero_line, axes.y.at(0.0)) {
@@ -291,12 +322,14 @@ impl LinePanel {
 
     fn draw_notes(&self, canvas: &mut Canvas, frame: Rect, axes: Axes) {
         let taken = self.drawn_points(axes);
+        let mut boxes: Vec<Rect> = Vec::new();
         for note in self.notes.iter().filter(|n| axes.x.holds(n.at[0]) && axes.y.holds(n.at[1])) {
             let Some(at) = axes.at(note.at[0], note.at[1]) else { continue };
             canvas.circle(at, 2.0, INK, Stroke::solid("#ffffff", 0.5));
             let height = 1.1 * NOTE_SIZE;
             let size = [note.label.width(NOTE_SIZE), height];
-            let [left, top] = legend::beside(at, size, frame, &taken);
+            let [left, top] = legend::beside(at, size, frame, &taken, &boxes);
+            boxes.push(Rect { left, top, right: left + size[0], bottom: top + height });
             let baseline = top + 0.8 * height;
             canvas.label(&note.label, [left, baseline], NOTE_SIZE, Anchor::Start);
         }

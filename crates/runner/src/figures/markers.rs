@@ -13,6 +13,8 @@ use super::style::{AXIS_WIDTH, MARKER_INK, NOTE_SIZE, Stroke};
 
 /// Smallest gap between neighbouring labels, in points.
 const GAP: f64 = 3.5;
+/// Farthest that a label may stand from its line, about its width: leaders do not cross.
+const FAR: f64 = 12.0;
 /// Height of the slanted part that leads from a line to its label.
 const LEADER: f64 = 6.0;
 /// Height above the frame that a row of labels takes.
@@ -43,8 +45,8 @@ pub struct MarkerGroup {
 pub struct Marker {
     /// Where it stands.
     pub x: f64,
-    /// What stands above it; none for a bare line. Where the labels of all groups do not fit
-    /// side by side, those of the last markers are left out and only their lines are drawn.
+    /// What stands above it; none for a bare line. Where labels of earlier markers leave it no room
+    /// near its line, only the line is drawn.
     pub label: Option<Label>,
 }
 
@@ -78,16 +80,13 @@ pub(super) fn draw_lines(canvas: &mut Canvas, groups: &[MarkerGroup], axis: &Axi
 
 /// Draws the labels above the frame, each with a short line down to its place.
 pub(super) fn draw_labels(canvas: &mut Canvas, groups: &[MarkerGroup], axis: &Axis, frame: Rect) {
-    let mut labelled: Vec<(f64, &Label)> =
+    let labelled: Vec<(f64, &Label)> =
         visible(groups, axis).into_iter().filter_map(|(x, _, label)| Some((x, label?))).collect();
-    let widths = labelled.iter().map(|(_, label)| label.width(NOTE_SIZE));
-    labelled.truncate(n_fitting(widths, frame.width() + 2.0 * GAP));
-    labelled.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let wanted: Vec<f64> = labelled.iter().map(|&(x, _)| x).collect();
-    let widths: Vec<f64> = labelled.iter().map(|(_, label)| label.width(NOTE_SIZE)).collect();
+    let wanted: Vec<[f64; 2]> =
+        labelled.iter().map(|(x, label)| [*x, label.width(NOTE_SIZE)]).collect();
     // A label may stand over the corner of the frame by half its width, but no farther.
-    let centres = spread(&wanted, &widths, [frame.left - GAP, frame.right + GAP]);
-    for ((x, label), centre) in labelled.into_iter().zip(centres) {
+    for (at, centre) in near(&wanted, [frame.left - GAP, frame.right + GAP]) {
+        let (x, label) = labelled[at];
         let leader = Stroke::solid(MARKER_INK, AXIS_WIDTH);
         canvas.line([x, frame.top], [centre, frame.top - LEADER + 1.5], leader);
         let at = [centre, frame.top - LEADER - 0.25 * NOTE_SIZE];
@@ -95,14 +94,26 @@ pub(super) fn draw_labels(canvas: &mut Canvas, groups: &[MarkerGroup], axis: &Ax
     }
 }
 
-/// How many labels, from the first, fit side by side.
-fn n_fitting(widths: impl Iterator<Item = f64>, room: f64) -> usize {
-    let mut right = -GAP;
-    let ends = widths.map(|width| {
-        right += GAP + width;
-        right
-    });
-    ends.take_while(|&end| end <= room).count()
+/// Which labels, given by place and width, can stand near their lines, the first ones before others, and
+/// the centre of each, from the left.
+fn near(labels: &[[f64; 2]], bounds: [f64; 2]) -> Vec<(usize, f64)> {
+    let placed = |chosen: &[usize]| {
+        let of = |part: usize| chosen.iter().map(|&at| labels[at][part]).collect::<Vec<f64>>();
+        spread(&of(0), &of(1), bounds)
+    };
+    let room = bounds[1] - bounds[0];
+    let (mut chosen, mut taken): (Vec<usize>, f64) = (Vec::new(), 0.0);
+    for (at, &[x, width]) in labels.iter().enumerate() {
+        let mut with = chosen.clone();
+        with.insert(chosen.partition_point(|&other| labels[other][0] <= x), at);
+        let is_near = |(&at, centre): (&usize, f64)| (centre - labels[at][0]).abs() <= FAR;
+        let fits = taken + width <= room;
+        if fits && with.iter().zip(placed(&with)).all(is_near) {
+            (chosen, taken) = (with, taken + width + GAP);
+        }
+    }
+    let centres = placed(&chosen);
+    chosen.into_iter().zip(centres).collect()
 }
 
 /// Centres of labels as close to `wanted` (ascending) as their widths and the bounds allow.
@@ -164,8 +175,17 @@ mod tests {
     }
 
     #[test]
-    fn labels_beyond_the_room_are_counted_out() {
-        assert_eq!(n_fitting([10.0; 5].into_iter(), 4.0 * 10.0 + 3.0 * GAP), 4);
-        assert_eq!(n_fitting([10.0].into_iter(), 9.0), 0);
+    fn labels_without_room_near_their_lines_are_left_out_from_the_last() {
+        let crowd: Vec<[f64; 2]> = (0..20).map(|k| [50.0 + f64::from(k), 10.0]).collect();
+        let placed = near(&crowd, [0.0, 200.0]);
+        assert!(placed.len() >= 2 && placed.len() < 5, "{placed:?}");
+        assert!(placed.iter().any(|&(at, _)| at == 0), "the first is among them: {placed:?}");
+        for &(at, centre) in &placed {
+            assert!((centre - crowd[at][0]).abs() <= FAR, "{placed:?}");
+        }
+        for pair in placed.windows(2) {
+            assert!(pair[1].1 - pair[0].1 >= 10.0 + GAP - 1e-9, "{placed:?}");
+        }
+        assert!(near(&[[4.0, 10.0]], [0.0, 9.0]).is_empty());
     }
 }

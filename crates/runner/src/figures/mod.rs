@@ -39,7 +39,7 @@ pub use groups::Group;
 pub use heat_map::HeatMapPanel;
 pub use label::Label;
 pub use layouts::{Comparison, pairs_figure};
-pub use lines::LinePanel;
+pub use lines::{LinePanel, Shade, Tone};
 pub use links::Link;
 pub use markers::{Marker, MarkerGroup, MarkerStyle};
 pub use msf::{MsfCurve, msf_panel};

@@ -5,8 +5,9 @@
 //! (Pecora & Carroll, PRL 80, 2109 (1998)).
 
 use super::label::Label;
-use super::lines::{LinePanel, Note};
+use super::lines::{LinePanel, Note, Shade, Tone};
 use super::series::{Series, Spread, SpreadStyle};
+use crate::table::three_digits;
 
 /// What a panel of the master stability function shows.
 #[derive(Clone, Debug)]
@@ -23,13 +24,15 @@ pub struct MsfCurve {
     pub zeros: Vec<f64>,
 }
 
-/// The panel: band of ± 2 standard errors, zeros labelled σ_c to two decimals.
+/// The panel: band of ± 2 standard errors, zeros labelled σ_c or, where there are several, σ_1, σ_2, ….
 pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
     let ends = |sign: f64| {
         curve.lambda.iter().zip(&curve.standard_error).map(|(l, e)| l + sign * 2.0 * e).collect()
     };
     let last = curve.sigma.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let stable = curve.stable.iter();
+    let is_one = curve.zeros.len() == 1;
+    let name = |k: usize| if is_one { "c".to_owned() } else { (k + 1).to_string() };
     LinePanel {
         x_label: Label::math("σ"),
         y_label: Label::math("Λ"),
@@ -40,15 +43,20 @@ pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
             spread: Some(Spread { lower: ends(-1.0), upper: ends(1.0), drawn: SpreadStyle::Band }),
             ..Series::default()
         }],
-        notes: curve.zeros.iter().copied().map(note).collect(),
+        notes: curve.zeros.iter().enumerate().map(|(k, &zero)| note(&name(k), zero)).collect(),
         // An open interval is shaded beyond the right edge of the frame, which cuts it.
-        shaded: stable.map(|&(from, to)| [from, to.unwrap_or(2.0 * last.max(from))]).collect(),
+        shaded: vec![Shade {
+            spans: stable.map(|&(from, to)| [from, to.unwrap_or(2.0 * last.max(from))]).collect(),
+            label: Label::default(),
+            tone: Tone::Grey,
+        }],
         ..LinePanel::default()
     }
 }
 
-fn note(zero: f64) -> Note {
-    let label = Label::math("σ").subscript("c").with_math(&format!(" = {zero:.2}"));
+fn note(name: &str, zero: f64) -> Note {
+    let value = three_digits(zero);
+    let label = Label::math("σ").subscript(name).with_math(&format!(" = {value}"));
     Note { at: [zero, 0.0], label }
 }
 
@@ -65,7 +73,7 @@ mod tests {
             stable: vec![(10.0, None)],
             zeros: vec![],
         });
-        assert_eq!((panel.notes.len(), panel.shaded.len()), (0, 1));
+        assert_eq!((panel.notes.len(), panel.shaded[0].spans.len()), (0, 1));
     }
 
     #[test]
@@ -79,6 +87,6 @@ mod tests {
         });
         let spread = panel.series[0].spread.as_ref().unwrap();
         assert_eq!((&spread.lower[..], &spread.upper[..]), (&[0.5, -2.0][..], &[1.5, 0.0][..]));
-        assert!(panel.shaded[0][1] > 1.0);
+        assert!(panel.shaded[0].spans[0][1] > 1.0);
     }
 }

@@ -10,7 +10,7 @@ use super::label::Label;
 use super::links::{self, Link};
 use super::placement::{Placement, circle, grouped};
 use super::stress::{hop_distances, least_stress};
-use super::style::{INK, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
+use super::style::{INK, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
 
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
@@ -74,7 +74,15 @@ impl NetworkPanel {
         if width < 20.0 || height < 20.0 {
             return Err(FigureError::TooSmall { panel: panel.into(), width, height });
         }
-        let places = fitted(&self.places(panel)?, room);
+        let given = self.places(panel)?;
+        let mut places = fitted(&given, room);
+        // The letter of the panel stands in the corner.
+        let [right, bottom] =
+            [cell.left + Label::text(panel).width(LETTER_SIZE), cell.top + LETTER_SIZE];
+        let letter = Rect { right, bottom, ..cell }.grown(radius(&places));
+        if places.iter().any(|&place| letter.contains(place)) {
+            places = fitted(&given, Rect { top: room.top + LETTER_SIZE, ..room });
+        }
         let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
         links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
@@ -131,7 +139,7 @@ impl NetworkPanel {
     }
 
     fn draw_nodes(&self, canvas: &mut Canvas, places: &[Point]) {
-        let radius = (CLOSENESS * closest(places)).clamp(MIN_RADIUS, MAX_RADIUS);
+        let radius = radius(places);
         let labels: Vec<Label> = self.nodes.iter().map(|n| Label::text(n.label.as_str())).collect();
         let widest = labels.iter().map(|l| l.width(1.0)).fold(0.0, f64::max);
         let size = MAX_LABEL.min(1.65 * radius / widest).min(1.4 * radius);
@@ -192,6 +200,11 @@ impl NetworkPanel {
         let mut fitting = tried.skip_while(|r| r.len() < n && r.iter().any(|r| r.width > room));
         fitting.next().unwrap_or_default()
     }
+}
+
+/// Radius of nodes at these places.
+fn radius(places: &[Point]) -> f64 {
+    (CLOSENESS * closest(places)).clamp(MIN_RADIUS, MAX_RADIUS)
 }
 
 /// Consecutive clusters named in one row, and the width of that row.
@@ -275,6 +288,20 @@ mod tests {
     #[test]
     fn nodes_at_one_place_stand_in_the_middle() {
         assert_eq!(fitted(&[[3.0, 4.0]; 2], ROOM), [[60.0, 45.0]; 2]);
+    }
+
+    #[test]
+    fn no_node_stands_under_the_letter_of_the_panel() {
+        let positions = |places: [[f64; 2]; 2]| {
+            let placement = Placement::At(places.to_vec());
+            let svg = svg_of(&NetworkPanel { placement, ..pair(1.0) }).unwrap();
+            let ys = svg.split(" cy=\"").skip(1).map(|rest| rest.split('"').next().unwrap());
+            ys.map(|y| y.parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min)
+        };
+        // From the upper left to the lower right corner, and the other way round.
+        let (under, clear) = ([[0.0, 1.0], [1.0, 0.0]], [[1.0, 1.0], [0.0, 0.0]]);
+        assert!((positions(clear) - MAX_RADIUS - 2.0).abs() < 0.1, "{}", positions(clear));
+        assert!(positions(under) - MAX_RADIUS > LETTER_SIZE, "{}", positions(under));
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub(super) const MARKER_INK: &str = "#555555";
 pub(super) const LINK_INK: &str = "#8c8c8c";
 /// Background of shaded spans.
 pub(super) const SHADE: &str = "#eeeeee";
+/// The same for what is to be told from these.
+pub(super) const YELLOW_SHADE: &str = "#fbf3d0";
 /// Nodes that belong to no cluster, and cells without a value.
 pub(super) const UNCLUSTERED: &str = "#d3d3d3";
 

@@ -30,8 +30,11 @@ pub fn is_one(name: &str) -> bool {
 impl Snapshots {
     pub fn new(folder: &Path) -> Self {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-        let is_ours =
-            |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with(PREFIX);
+        // A pipe would be waited for, and a link leads to what is not ours.
+        let is_ours = |entry: &fs::DirEntry| {
+            is_one(&entry.file_name().to_string_lossy())
+                && entry.file_type().is_ok_and(|kind| kind.is_file())
+        };
         let left = entries.filter(is_ours).map(|entry| entry.path()).collect();
         Self { folder: folder.to_owned(), left }
     }
@@ -68,5 +71,21 @@ impl Snapshots {
 
     fn place(&self, key: &Key) -> PathBuf {
         self.folder.join(format!("{PREFIX}{key}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+
+    use super::*;
+
+    #[test]
+    fn a_pipe_called_as_a_snapshot_is_not_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let key = Key([1; 32]);
+        let pipe = folder.path().join(format!("{PREFIX}{key}"));
+        mknodat(CWD, pipe, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).unwrap();
+        assert!(Snapshots::new(folder.path()).take(&key).is_none());
     }
 }

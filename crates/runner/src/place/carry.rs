@@ -10,10 +10,12 @@ use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
-use super::exchange::flush;
+use rustix::fs::{Access, access};
+
+use super::exchange::{self, flush};
 use super::manifest::{Manifest, Owner};
 use super::standing::{ALL_ACCESS, Identity, SUMMARY};
-use crate::output::tell;
+use crate::output::{shown, tell};
 use crate::problem::{self, Problem};
 
 /// How an entry gets into the new folder.
@@ -23,26 +25,49 @@ enum By {
     Move,
 }
 
-/// Refuses what could not be moved: a user's folder in the results that we may not write to.
+/// Refuses what could not come along or could not be told from a user's: folders that we may not write
+/// to, files of ours that we may not read, and whatever is mounted here.
 pub fn check(folder: &Path) -> problem::Result<()> {
+    let manifest = Manifest::of(folder).ok();
+    for name in names(folder).unwrap_or_default() {
+        let file = folder.join(&name);
+        let is_ours = manifest.as_ref().is_some_and(|manifest| manifest.lists(&name));
+        if is_ours
+            && !is_folder(&file)
+            && let Err(error) = access(&file, Access::READ_OK)
+        {
+            return Err(refused(&file, "cannot be told from an edited file", &error.to_string()));
+        }
+    }
+    check_movable(folder)
+}
+
+fn check_movable(folder: &Path) -> problem::Result<()> {
     for name in names(folder).unwrap_or_default() {
         let inner = folder.join(name);
+        if exchange::is_mount(&inner) {
+            return Err(refused(&inner, STAYS, "a file system is mounted there"));
+        }
         if is_folder(&inner) {
-            if let Err(error) = rustix::fs::access(&inner, ALL_ACCESS) {
-                let what = "could not come along when the results around it are replaced";
-                let hint = "move it away, or write elsewhere: `--results FOLDER`";
-                return Err(Problem::from_error(what, error).in_file(&inner).hint(hint));
-            }
-            check(&inner)?;
+            access(&inner, ALL_ACCESS)
+                .map_err(|error| refused(&inner, STAYS, &error.to_string()))?;
+            check_movable(&inner)?;
         }
     }
     Ok(())
 }
 
+fn refused(place: &Path, what: &str, why: &str) -> Problem {
+    let hint = "move it away, or write elsewhere: `--results FOLDER`";
+    Problem::new(format!("{what}: {why}")).in_file(place).hint(hint)
+}
+
+const STAYS: &str = "could not come along when the results around it are replaced";
+
 /// Links what is a user's into the new folder. What cannot be linked is moved later.
 pub fn link_along(old: &Path, new: &Path) {
-    for (name, owner) in owned(old).unwrap_or_default() {
-        if owner != Owner::Ours {
+    for (name, owner) in owned(old, new).unwrap_or_default() {
+        if let Ok(owner @ (Owner::Edited | Owner::User)) = owner {
             // Whatever goes wrong here is tried again, and told, when the rest is moved.
             let _ = lodge(&old.join(&name), new, &name, owner == Owner::Edited, By::Link);
         }
@@ -52,13 +77,20 @@ pub fn link_along(old: &Path, new: &Path) {
 
 /// Moves what has not come along yet and removes the old folder.
 pub fn move_rest(old: &Path, new: &Path) -> Result<()> {
-    let (ours, users): (Vec<_>, Vec<_>) =
-        owned(old)?.into_iter().partition(|(_, owner)| *owner == Owner::Ours);
-    for (name, owner) in &users {
-        lodge(&old.join(name), new, name, *owner == Owner::Edited, By::Move)?;
+    let (ours, others): (Vec<_>, Vec<_>) =
+        owned(old, new)?.into_iter().partition(|(_, owner)| matches!(owner, Ok(Owner::Ours)));
+    let mut unknown = None;
+    for (name, owner) in &others {
+        match owner {
+            Ok(owner) => lodge(&old.join(name), new, name, *owner == Owner::Edited, By::Move)?,
+            Err(error) => unknown = Some(Error::new(error.kind(), error.to_string())),
+        }
     }
-    if !users.is_empty() {
+    if !others.is_empty() {
         flush(new)?;
+    }
+    if let Some(error) = unknown {
+        return Err(error);
     }
     // The summary goes last: without it, a later run could not tell the others from a user's.
     let (summary, files): (Vec<_>, Vec<_>) =
@@ -67,14 +99,20 @@ pub fn move_rest(old: &Path, new: &Path) -> Result<()> {
     fs::remove_dir(old)
 }
 
-/// What is in a folder of results, and whose.
-fn owned(folder: &Path) -> Result<Vec<(OsString, Owner)>> {
-    let manifest = Manifest::of(folder);
+/// What is in a folder of results, and whose, where that can be told. What keeps its own name in the
+/// new folder comes first, so that nothing that needs another one takes it.
+fn owned(folder: &Path, new: &Path) -> Result<Vec<(OsString, Result<Owner>)>> {
+    let (manifest, others) = (Manifest::of(folder)?, Manifest::of(new)?);
     let of = |name: OsString| {
         let owner = manifest.owner(folder, &name);
         (name, owner)
     };
-    Ok(names(folder)?.into_iter().map(of).collect())
+    let mut all: Vec<_> = names(folder)?.into_iter().map(of).collect();
+    let needs_another = |name: &OsStr, owner: &Result<Owner>| {
+        matches!(owner, Ok(Owner::Edited)) || others.lists(name)
+    };
+    all.sort_by_cached_key(|(name, owner)| (needs_another(name, owner), name.clone()));
+    Ok(all)
 }
 
 fn names(folder: &Path) -> Result<Vec<OsString>> {
@@ -92,7 +130,8 @@ fn lodge(from: &Path, folder: &Path, name: &OsStr, was_edited: bool, by: By) -> 
                 fs::remove_file(from)?;
             }
             return Ok(());
-        } else if number == 0 && is_folder(from) && is_folder(&to) {
+        } else if is_folder(from) && is_folder(&to) && (number == 0 || is_part(&to, from)?) {
+            // Linked before, or made by a run that was killed while it was linking.
             for inner in names(from)? {
                 lodge(&from.join(&inner), &to, &inner, false, by)?;
             }
@@ -104,8 +143,8 @@ fn lodge(from: &Path, folder: &Path, name: &OsStr, was_edited: bool, by: By) -> 
             let why = if was_edited { "was edited since it was written" } else { "is in the way" };
             tell!(
                 "{} {why}; it is kept as {}",
-                name.display(),
-                to.file_name().unwrap_or_default().display()
+                shown(name),
+                shown(to.file_name().unwrap_or_default())
             );
         }
         return Ok(());
@@ -138,6 +177,19 @@ fn is_same(a: &Path, b: &Path) -> Result<bool> {
         return Ok(fs::read_link(a)? == fs::read_link(b)?);
     }
     Ok(Identity::at(a)? == Identity::at(b)?)
+}
+
+/// Whether a folder holds nothing but what another one holds, in part or whole.
+fn is_part(folder: &Path, of: &Path) -> Result<bool> {
+    for name in names(folder)? {
+        let (a, b) = (folder.join(&name), of.join(&name));
+        let is_there = b.symlink_metadata().is_ok();
+        if !is_there || !(is_same(&a, &b)? || (is_folder(&a) && is_folder(&b) && is_part(&a, &b)?))
+        {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 fn is_folder(path: &Path) -> bool {

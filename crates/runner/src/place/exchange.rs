@@ -27,6 +27,28 @@ pub fn try_out(hidden: &Path) -> Result<()> {
     super::clear(&trial)
 }
 
+/// Whether a file system is mounted at a path, or a folder or file from elsewhere: it can be neither
+/// renamed nor removed.
+pub fn is_mount(path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let device = |path: &Path| fs::symlink_metadata(path).map(|found| found.dev());
+    let is_other = matches!((device(path), device(parent(path))), (Ok(a), Ok(b)) if a != b);
+    is_other || is_mount_root(path)
+}
+
+/// Whether the system says so; what is bound here from the same file system shows in nothing else.
+#[cfg(target_os = "linux")]
+fn is_mount_root(path: &Path) -> bool {
+    use rustix::fs::{AtFlags, StatxAttributes, StatxFlags, statx};
+    let found = statx(CWD, path, AtFlags::SYMLINK_NOFOLLOW, StatxFlags::empty());
+    found.is_ok_and(|found| found.stx_attributes.contains(StatxAttributes::MOUNT_ROOT))
+}
+
+#[cfg(not(target_os = "linux"))]
+fn is_mount_root(_: &Path) -> bool {
+    false
+}
+
 /// Gives a new folder the mode and the owner of the one that it replaces, as far as that is allowed.
 pub fn resemble(old: &Path, new: &Path) {
     use std::os::unix::fs::{MetadataExt, chown};

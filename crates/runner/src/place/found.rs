@@ -1,11 +1,11 @@
 //! What there is of an experiment in a results folder, at a look that changes nothing.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::leftovers::holds_work;
 use super::lock::is_held;
-use super::name;
 use super::standing::Head;
+use super::{REPLACED, WHOLE, name};
 
 /// Results and unfinished work of one experiment.
 #[derive(Default)]
@@ -16,6 +16,8 @@ pub struct Found {
     pub is_running: bool,
     /// Whether a run that has ended left work that another could go on from.
     pub is_unfinished: bool,
+    /// Whole results that a run was killed over before they were in place, where nothing is.
+    pub aside: Option<PathBuf>,
 }
 
 impl Found {
@@ -34,6 +36,18 @@ impl Found {
             found.is_running |= is_held;
             found.is_unfinished |= !is_held && holds_work(&hidden);
         }
+        found.aside = aside(results, id);
         found
     }
+}
+
+/// Whole results that the next run of an experiment will put in place, where nothing is: those of a run
+/// that was killed over it, or the older ones, if it was killed between two renames.
+pub fn aside(results: &Path, id: &str) -> Option<PathBuf> {
+    let is_in_place = results.join(id).symlink_metadata().is_ok();
+    let hidden = [false, true].map(|quick| name::hidden(results, id, quick));
+    let folders = hidden.iter().filter(|hidden| !is_held(hidden));
+    let mut whole = folders.flat_map(|hidden| [WHOLE, REPLACED].map(|name| hidden.join(name)));
+    let is_it = |folder: &PathBuf| Head::read(folder).is_ok_and(|head| head.id == id);
+    if is_in_place { None } else { whole.find(is_it) }
 }

@@ -1,5 +1,6 @@
 //! What runs that were killed have left: worth going on from, worth adopting, or to be cleared away.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,7 @@ use super::lock::{LOCK, Lock};
 use super::manifest::{Manifest, Owner};
 use super::standing::Head;
 use super::{FILES, carry, exchange, name};
-use crate::output::tell;
+use crate::output::{shown, tell};
 use crate::problem::{Problem, Result};
 
 /// How many letters 0.1.0 put after the name of an unfinished folder, so that no two were the same.
@@ -50,11 +51,11 @@ pub fn of_version_0_1_0(results: &Path, id: &str, place: &Path) -> Result<()> {
             exchange::put(folder, place).map_err(|error| {
                 Problem::from_error("cannot be put in place", error).in_file(folder)
             })?;
-            tell!("{}: whole results of a killed run are put in place", place.display());
+            tell!("{}: whole results of a killed run are put in place", shown(place));
         } else if place.is_dir() || holds_ours_only(folder) {
             // What is a user's in it goes to the results in place, of which there are some.
             if let Err(error) = carry::move_rest(folder, place) {
-                tell!("warning: {} cannot be cleared away: {error}", folder.display());
+                tell!("warning: {} cannot be cleared away: {error}", shown(folder));
             }
         }
     }
@@ -71,10 +72,9 @@ fn is_of_0_1_0(path: &Path, id: &str) -> bool {
 }
 
 fn holds_ours_only(folder: &Path) -> bool {
-    let manifest = Manifest::of(folder);
-    entries(folder).all(|path| {
-        path.file_name().is_some_and(|name| manifest.owner(folder, name) == Owner::Ours)
-    })
+    let Ok(manifest) = Manifest::of(folder) else { return false };
+    let is_ours = |name: &OsStr| matches!(manifest.owner(folder, name), Ok(Owner::Ours));
+    entries(folder).all(|path| path.file_name().is_some_and(is_ours))
 }
 
 /// What is in a folder, if it can be read.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::leftovers::holds_work;
 use super::standing::{Identity, Origin};
-use crate::output::tell;
+use crate::output::{shown, tell};
 use crate::problem::Problem;
 
 /// The file that is locked.
@@ -56,6 +56,7 @@ impl Lock {
                 Err(error) if error.kind() != ErrorKind::AlreadyExists => return Err(error.into()),
                 _ => check_ours(folder)?,
             }
+            check_plain(&folder.join(LOCK))?;
             let options = OpenOptions::new().read(true).write(true).create(true).clone();
             let file = match options.open(folder.join(LOCK)) {
                 Err(error) if error.kind() == ErrorKind::NotFound => continue,
@@ -76,7 +77,7 @@ impl Lock {
         if !fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir()) {
             return None;
         }
-        let file = File::open(folder.join(LOCK)).ok()?;
+        let file = open(folder)?;
         file.try_lock().ok()?;
         let is_same =
             Identity::at(&folder.join(LOCK)).ok()? == Identity::of(&file.metadata().ok()?);
@@ -123,13 +124,13 @@ impl Lock {
                 continue;
             }
             let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-            let removed = match (is_made_here(&name.to_string_lossy()), is_folder) {
+            let removed = match (is_made_here(&name.to_string_lossy(), is_folder), is_folder) {
                 (false, _) => false,
                 (true, true) => fs::remove_dir_all(&path).is_ok(),
                 (true, false) => fs::remove_file(&path).is_ok(),
             };
             if !removed {
-                tell!("warning: {} stays in the folder of an unfinished run", path.display());
+                tell!("warning: {} stays in the folder of an unfinished run", shown(&path));
                 is_empty = false;
             }
         }
@@ -140,15 +141,39 @@ impl Lock {
     }
 }
 
-/// Whether something in a hidden folder is called as what runs leave there.
-fn is_made_here(name: &str) -> bool {
+/// Whether a folder or a file in a hidden folder is called as what runs leave there.
+fn is_made_here(name: &str, is_folder: bool) -> bool {
     let folders = ["trial", super::FILES, super::WHOLE, super::REPLACED];
-    folders.contains(&name) || crate::journal::is_its(name)
+    if is_folder { folders.contains(&name) } else { crate::journal::is_its(name) }
+}
+
+/// The lock of a folder, if it is one: a pipe would be waited for.
+fn open(folder: &Path) -> Option<File> {
+    let path = folder.join(LOCK);
+    is_plain(&path).filter(|is_plain| *is_plain).and_then(|_| File::open(path).ok())
+}
+
+/// Whether a path is a file of its own, neither a link nor known by another name elsewhere, which
+/// would be written to as well; none if there is nothing.
+fn is_plain(path: &Path) -> Option<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let found = fs::symlink_metadata(path).ok()?;
+    Some(found.is_file() && found.nlink() == 1)
+}
+
+/// Refuses a lock that is none of ours, before it is written to.
+fn check_plain(path: &Path) -> Result<(), Refusal> {
+    if is_plain(path) != Some(false) {
+        return Ok(());
+    }
+    let message = "is where a run says that it is at work, and is no plain file of its own";
+    let hint = "move it away, or write elsewhere: `--results FOLDER`";
+    Err(Refusal::Problem(Problem::new(message).in_file(path).hint(hint)))
 }
 
 /// Whether a run works in a folder at this moment.
 pub fn is_held(folder: &Path) -> bool {
-    let Ok(file) = File::open(folder.join(LOCK)) else { return false };
+    let Some(file) = open(folder) else { return false };
     matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
 }
 
@@ -161,7 +186,7 @@ fn lock(file: &File, folder: &Path) -> std::io::Result<bool> {
             tell!(
                 "warning: the file system of {} knows no locks ({error}): two runs of one \
                  experiment would disturb each other",
-                folder.display()
+                shown(folder)
             );
             Ok(true)
         }
@@ -179,7 +204,7 @@ fn knows_no_locks(error: &std::io::Error) -> bool {
 /// leaves there.
 fn check_ours(folder: &Path) -> Result<(), Refusal> {
     let is_folder = fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir());
-    let is_ours = || folder.join(LOCK).is_file() || holds_nothing_but_ours(folder);
+    let is_ours = || folder.join(LOCK).symlink_metadata().is_ok() || holds_nothing_but_ours(folder);
     // One that has just gone is no reason to refuse; the next try makes it anew.
     if folder.symlink_metadata().is_err() || (is_folder && is_ours()) {
         return Ok(());
@@ -192,7 +217,10 @@ fn check_ours(folder: &Path) -> Result<(), Refusal> {
 /// Whether there is nothing else in a folder than what a run leaves that could not clear up.
 fn holds_nothing_but_ours(folder: &Path) -> bool {
     let ours = |entry: std::io::Result<fs::DirEntry>| {
-        entry.is_ok_and(|entry| is_made_here(&entry.file_name().to_string_lossy()))
+        entry.is_ok_and(|entry| {
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            is_made_here(&entry.file_name().to_string_lossy(), is_folder)
+        })
     };
     fs::read_dir(folder).is_ok_and(|mut entries| entries.all(ours))
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{Error, Read, Result, Write};
+use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
@@ -65,42 +65,67 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Of a results folder.
-    pub fn of(folder: &Path) -> Self {
+    /// Of a results folder. A summary that cannot be read is an error, since it tells what is whose;
+    /// where there is none, nothing is listed.
+    pub fn of(folder: &Path) -> Result<Self> {
         let path = folder.join(SUMMARY);
         let written = modified(&path);
-        let text = fs::read_to_string(path).unwrap_or_default();
-        match unsealed(&text) {
+        let text = match fs::read(&path) {
+            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+            Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(named(SUMMARY, &error)),
+        };
+        Ok(match unsealed(&text) {
             Some((summary, sums)) => {
                 Self { sums: Some(sums), summary: Some(sum_of_text(&summary)), written }
             }
             // Whoever wrote it anew has edited it, whatever it says.
             None => Self { sums: listed(&text), summary: None, written },
-        }
+        })
     }
 
-    /// Whose this entry of the folder is.
-    pub fn owner(&self, folder: &Path, name: &OsStr) -> Owner {
+    /// Whether a file of this name is one of ours, edited or not.
+    pub fn lists(&self, name: &OsStr) -> bool {
+        let name = name.to_str().unwrap_or_default();
+        self.sums.as_ref().map_or_else(|| is_of_0_1_0(name), |sums| sums.contains_key(name))
+    }
+
+    /// Whose this entry of the folder is. One of ours that cannot be read is an error: nobody knows
+    /// whether it was edited.
+    pub fn owner(&self, folder: &Path, name: &OsStr) -> Result<Owner> {
         let path = folder.join(name);
-        let is_file = fs::symlink_metadata(&path).is_ok_and(|found| found.is_file());
-        let Some(name) = name.to_str().filter(|_| is_file) else { return Owner::User };
-        let Some(sums) = &self.sums else { return self.owner_in_0_1_0(&path, name) };
-        let Some(sum) = sums.get(name) else { return Owner::User };
-        let now = if name == SUMMARY { self.summary.clone() } else { sum_of(&path).ok() };
-        if now.as_ref() == Some(sum) { Owner::Ours } else { Owner::Edited }
+        let is_file = fs::symlink_metadata(&path)?.is_file();
+        if !is_file || !self.lists(name) {
+            return Ok(Owner::User);
+        }
+        let name = name.to_str().unwrap_or_default();
+        let Some(sum) = self.sums.as_ref().and_then(|sums| sums.get(name)) else {
+            return Ok(self.owner_in_0_1_0(&path));
+        };
+        let now = match name {
+            SUMMARY => self.summary.clone(),
+            _ => Some(sum_of(&path).map_err(|error| named(name, &error))?),
+        };
+        Ok(if now.as_ref() == Some(sum) { Owner::Ours } else { Owner::Edited })
     }
 
-    fn owner_in_0_1_0(&self, path: &Path, name: &str) -> Owner {
-        let is_matrix = name.ends_with(".npy")
-            && MATRICES_OF_0_1_0.iter().any(|beginning| name.starts_with(beginning));
-        if !is_matrix && !OF_0_1_0.contains(&name) {
-            return Owner::User;
-        }
+    fn owner_in_0_1_0(&self, path: &Path) -> Owner {
         let later = modified(path).zip(self.written).and_then(|(at, written)| {
             at.duration_since(written).ok().filter(|later| *later > WRITTEN_TOGETHER)
         });
         if later.is_some() { Owner::Edited } else { Owner::Ours }
     }
+}
+
+fn is_of_0_1_0(name: &str) -> bool {
+    let is_matrix = name.ends_with(".npy")
+        && MATRICES_OF_0_1_0.iter().any(|beginning| name.starts_with(beginning));
+    is_matrix || OF_0_1_0.contains(&name)
+}
+
+/// An error with the name of the file that it befell.
+fn named(name: &str, error: &Error) -> Error {
+    Error::new(error.kind(), format!("{name} cannot be read: {error}"))
 }
 
 /// Flushes the files of a folder and lists them in its summary; nothing is written to it after that.

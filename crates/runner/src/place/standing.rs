@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::name::relative;
+use crate::output::shown;
 use crate::problem::{Problem, Result};
 
 /// The file that makes a folder one of results.
@@ -121,7 +122,7 @@ impl Origin {
     pub fn shown(&self, place: &Path) -> String {
         let path = self.path(place);
         let path = path.canonicalize().unwrap_or(path);
-        format!("`eigensync {} {}`", self.command, path.display())
+        format!("`eigensync {} {}`", self.command, shown(&path))
     }
 
     /// The file as seen from where we are; the place itself need not be there.
@@ -166,7 +167,7 @@ pub fn standing(place: &Path, id: &str) -> Result<Option<Ours>> {
     };
     if found.is_symlink() {
         let to = fs::read_link(place).unwrap_or_default();
-        return Err(refused(place, &format!("is a link to {}", to.display())));
+        return Err(refused(place, &format!("is a link to {}", shown(&to))));
     }
     if !found.is_dir() {
         return Err(refused(place, "is a file"));

@@ -74,7 +74,7 @@ impl Memory {
             hint: "set `spectrum.modes` to the number of leading modes you need",
         });
         parts.extend(plan.sweep.iter().map(|sweep| of_sweep(sweep, n)));
-        let figure = plan.figure().kind;
+        let figure = plan.figure_kind();
         if plan.sweep.is_some() && matches!(figure, FigureKind::Matrices | FigureKind::Regions) {
             parts.push(Part {
                 name: "figure",

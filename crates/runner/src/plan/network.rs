@@ -15,13 +15,13 @@ impl Checker<'_> {
         let (network, reports) = self.source()?;
         if network.n_nodes() == 1 {
             let message = "has one node; synchronisation needs two or more";
-            return Err(self.problem("network", message));
+            return Err(self.of_network(message));
         }
         let strengths = network.strengths();
         if let Some(node) = strengths.iter().position(|strength| !strength.is_finite()) {
             let label = &network.labels()[node];
             let message = format!("has weights at node `{label}` that add up to more than 1.8e308");
-            return Err(self.problem("network", message));
+            return Err(self.of_network(&message));
         }
         Ok((network, reports))
     }
@@ -115,14 +115,14 @@ impl Checker<'_> {
         self.region_ranges(regions, network.n_nodes())
     }
 
-    /// Matrices and regions need what they show.
+    /// Matrices and regions need what they show. Matrices of too many nodes are no mistake: the figure
+    /// is of another kind then, as `check` foresees.
     fn figure_kind(&self, network: &Network) -> Result<()> {
         let kind = self.experiment.figure.kind;
-        let (regions, n_nodes) = (self.experiment.regions.is_some(), network.n_nodes());
+        let regions = self.experiment.regions.is_some();
         let missing = match kind {
             FigureKind::Sweep | FigureKind::None => None,
             _ if self.experiment.sweep.is_none() => Some("a [sweep]"),
-            _ if n_nodes > ALL_PAIRS => Some("a network of up to 2000 nodes, whose pairs are kept"),
             FigureKind::Regions if !regions => Some("the thresholds of [regions]"),
             FigureKind::Regions if network.positions().is_none() => Some("positions of the nodes"),
             _ => None,

@@ -14,6 +14,7 @@ use graph::{Group, Network, RawNetwork};
 
 use super::Checker;
 use crate::files;
+use crate::output::shown;
 use crate::problem::{Problem, Result};
 use crate::progress::Watched;
 use crate::spec::{
@@ -70,9 +71,21 @@ impl Checker<'_> {
                 "threshold=0",
             ),
         };
-        self.problem("network", format!("{kind}: {error}")).hint(format!(
+        self.of_network(&format!("{kind}: {error}")).hint(format!(
             "{steps}: `--prepare {step}` of `eigensync predict`, or `prepare` in an experiment file"
         ))
+    }
+
+    /// A problem with the network itself, which names the file that it was read from.
+    pub(super) fn of_network(&self, message: &str) -> Problem {
+        match &self.experiment.network {
+            NetworkSpec::File(FileSpec { path, .. })
+            | NetworkSpec::Hierarchical(HierarchicalSpec { path, .. }) => {
+                let path = shown(self.beside(path));
+                self.problem("network", format!("from {path} {message}"))
+            }
+            NetworkSpec::Communities(_) => self.problem("network", message),
+        }
     }
 
     fn beside(&self, path: &Path) -> PathBuf {
@@ -96,7 +109,7 @@ impl Checker<'_> {
         let layout = self.layout(spec)?;
         let variable = spec.variable.as_deref();
         let failed = |error: &dyn std::fmt::Display| {
-            self.problem(key, format!("names {}: {error}", path.display()))
+            self.problem(key, format!("names {}: {error}", shown(path)))
         };
         match spec.format {
             Format::EdgeList => {
@@ -131,8 +144,7 @@ impl Checker<'_> {
     /// the experiment out.
     fn open(&self, key: &str, path: &Path, fetched_by: Option<&str>) -> Result<(PathBuf, File)> {
         let path = self.beside(path);
-        let named =
-            |message: String| self.problem(key, format!("names {}{message}", path.display()));
+        let named = |message: String| self.problem(key, format!("names {}{message}", shown(&path)));
         let source = files::open(&path).map_err(|error| match (error.kind(), fetched_by) {
             (std::io::ErrorKind::NotFound, Some(command)) => named(", which is not here".into())
                 .hint(format!("`{command}` brings it"))
@@ -183,7 +195,7 @@ impl Checker<'_> {
         let key = "network.hierarchical";
         let (path, source) = self.open(&format!("{key}.path"), &spec.path, None)?;
         let backbone = formats::edge_list::read(source).map_err(|error| {
-            self.problem(&format!("{key}.path"), format!("names {}: {error}", path.display()))
+            self.problem(&format!("{key}.path"), format!("names {}: {error}", shown(&path)))
         })?;
         let seed = spec.seed.unwrap_or(self.experiment.seed);
         let factor = spec.p_between_per_weight;
@@ -229,14 +241,14 @@ impl Checker<'_> {
         let read =
             read.and_then(|n| if n as u64 > MOST_GROUP_BYTES { Err(too_long()) } else { Ok(n) });
         read.map_err(|error| {
-            self.problem("groups.file.path", format!("names {}: {error}", path.display()))
+            self.problem("groups.file.path", format!("names {}: {error}", shown(&path)))
         })?;
         let names: Vec<&str> = text.lines().map(str::trim).collect();
         if names.len() != n_nodes || names.contains(&"") {
             let message = format!(
                 "names {}, which has {} lines with a name; expected one for each of the {n_nodes} \
                  nodes",
-                path.display(),
+                shown(&path),
                 names.iter().filter(|name| !name.is_empty()).count()
             );
             return Err(self.problem("groups.file.path", message));

@@ -3,7 +3,7 @@
 
 use dynamics::{LinearSteps, Method, StepVerdict};
 
-use super::{Checker, Plan, Sweep};
+use super::{Checker, Node, Plan, Sweep};
 use crate::problem::{Result, plain};
 use crate::table::{four_digits, two_digits};
 use crate::warning::Warning;
@@ -26,7 +26,7 @@ impl Checker<'_> {
     pub(super) fn steps(&self, plan: &Plan) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
         let step = plan.msf.times.step;
-        if let Some(steps) = self.linear_steps(plan.node, step) {
+        if let Some(steps) = self.linear_steps(&plan.node, step) {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
@@ -48,7 +48,7 @@ impl Checker<'_> {
 
     fn sweep_step(&self, plan: &Plan, sweep: &Sweep) -> Result<Option<Warning>> {
         let step = sweep.schedule.step;
-        let Some(steps) = self.linear_steps(plan.node, step) else { return Ok(None) };
+        let Some(steps) = self.linear_steps(&plan.node, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
         let diagonal = plan.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
@@ -71,8 +71,8 @@ impl Checker<'_> {
     }
 
     /// None for an orbit that escapes by itself, which the run will say.
-    fn linear_steps(&self, node: msf::Node, step: f64) -> Option<LinearSteps> {
-        LinearSteps::along_orbit(node.model, node.coupling, step, self.experiment.seed).ok()
+    fn linear_steps(&self, node: &Node, step: f64) -> Option<LinearSteps> {
+        LinearSteps::along_orbit(&node.model, &node.coupling, step, self.experiment.seed).ok()
     }
 
     /// Refuses a step at which RK4 makes deviations grow that the equations damp: the end of a stable

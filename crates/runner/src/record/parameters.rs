@@ -1,6 +1,7 @@
 //! Every parameter that a run used, in the words of experiment files: what the file says, the defaults
 //! for what it leaves out, and what `--quick` made of the times.
 
+use dynamics::NodeDynamics;
 use serde_json::{Value, json};
 
 use crate::plan::Plan;
@@ -15,7 +16,6 @@ pub fn of(plan: &Plan) -> Value {
             table[key] = value;
         }
     };
-    set("/spectrum/modes", json!(plan.spectrum.wanted()));
     set("/spectrum/modes", json!(plan.spectrum.wanted()));
     set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
     set("/msf/transient", json!(plan.msf.times.transient));

@@ -7,11 +7,18 @@
 //! the smallest ε, the upper end *at least* the largest. A run that escaped is not synchronised, and
 //! neither are nodes at ε = 0; where these have no error for a reason of their own, ε = 0 tells nothing
 //! of coupling and the sweep begins above it.
+//!
+//! Seeds may settle on different attractors, and then a mean over them is of none. Where ends fall into
+//! groups (see `simulated/groups`) each group is named, and there is no mean.
+
+use std::fmt;
 
 use dynamics::{Estimate, Outcome, Run};
 use serde::Serialize;
 
 use super::Simulated;
+use super::groups::{Apart, groups};
+use crate::table::four_digits;
 
 /// Both ends of the range in which clusters were seen.
 #[derive(Clone, Debug)]
@@ -32,8 +39,12 @@ pub enum Known {
     AtMost,
     /// In some seed it lies above the sweep: its mean is at least the limit.
     AtLeast,
+    /// Seeds fall into groups, far apart: their mean would be of none of them.
+    Groups,
     /// In some seed the clusters are synchronised at no point that was looked at.
     Unseen,
+    /// In some seed every orbit that was looked at escaped.
+    Escaped,
     /// No point of the sweep that was integrated lies where the clusters are predicted.
     NotSwept,
 }
@@ -54,11 +65,37 @@ pub struct End {
     /// Half the distance of the points on either side of it, the largest of all seeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub half_step: Option<f64>,
-    /// Seeds in which the orbit escaped at the next point beyond the end.
+    /// The groups into which seeds fall, from small ε up; only where they do.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<Group>,
+    /// Seeds in which the orbit escaped at the next point beyond the end, or at every one looked at.
     pub n_escaped: usize,
     /// The least and the most that its mean can be.
     #[serde(skip)]
     pub interval: Option<[f64; 2]>,
+}
+
+/// Seeds in which an end lies near the same ε.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Group {
+    pub n_seeds: usize,
+    /// The least and the most in these seeds; none where it lies beyond the sweep on that side.
+    pub from: Option<f64>,
+    pub to: Option<f64>,
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seeds = if self.n_seeds == 1 { "seed" } else { "seeds" };
+        write!(f, "{} {seeds} at ", self.n_seeds)?;
+        match (self.from, self.to) {
+            (Some(from), Some(to)) if from == to => f.write_str(&four_digits(from)),
+            (Some(from), Some(to)) => write!(f, "{} to {}", four_digits(from), four_digits(to)),
+            (None, Some(to)) => write!(f, "most {}", four_digits(to)),
+            (Some(from), None) => write!(f, "least {}", four_digits(from)),
+            (None, None) => f.write_str("no known ε"),
+        }
+    }
 }
 
 /// What one run shows of some clusters.
@@ -79,6 +116,25 @@ struct OfSeed {
     lost: Option<(f64, bool)>,
 }
 
+impl OfSeed {
+    /// Midway between the two points, where there are two.
+    fn midway(self) -> Option<f64> {
+        Some(0.5 * (self.kept + self.lost?.0))
+    }
+}
+
+/// What one seed tells of an end.
+#[derive(Clone, Copy)]
+enum Told {
+    /// None of its runs was integrated.
+    Nothing,
+    /// The clusters are synchronised nowhere, and every orbit escaped.
+    Escaped,
+    /// The clusters are synchronised nowhere.
+    Unseen,
+    At(OfSeed),
+}
+
 impl Simulated {
     /// Where these clusters were seen synchronised, looked for at ε in (from, to]; anywhere where no
     /// range is given.
@@ -94,16 +150,10 @@ impl Simulated {
         if candidates.is_empty() {
             return Seen { onset: End::none(Known::NotSwept), end: End::none(Known::NotSwept) };
         }
-        // A seed of which no run was integrated there tells nothing, and the others decide.
-        let ends_in = |seen: &Vec<Sight>| {
-            let tells = candidates.iter().any(|&at| seen[at] != Sight::Nothing);
-            tells.then(|| self.ends_in(seen, &candidates))
-        };
-        let ends: Vec<Option<[Option<OfSeed>; 2]>> =
-            self.sights(clusters).iter().map(ends_in).collect();
+        let seeds: Vec<[Told; 2]> =
+            self.sights(clusters).iter().map(|seen| self.ends_in(seen, &candidates)).collect();
         let of = |end: usize, beyond| {
-            let of_seeds: Vec<_> = ends.iter().map(|ends| ends.map(|ends| ends[end])).collect();
-            End::of(&of_seeds, beyond)
+            End::of(&seeds.iter().map(|ends| ends[end]).collect::<Vec<_>>(), beyond, self.apart)
         };
         Seen { onset: of(0, Known::AtMost), end: of(1, Known::AtLeast) }
     }
@@ -126,11 +176,17 @@ impl Simulated {
         (0..self.seeds.len()).map(of_seed).collect()
     }
 
-    /// Lower and upper end in one seed; none where the clusters are synchronised at no candidate.
-    fn ends_in(&self, seen: &[Sight], candidates: &[usize]) -> [Option<OfSeed>; 2] {
+    /// Lower and upper end in one seed.
+    fn ends_in(&self, seen: &[Sight], candidates: &[usize]) -> [Told; 2] {
         let is_synchronised = |at: &usize| seen[*at] == Sight::Synchronised;
         let Some(&start) = candidates.iter().rev().find(|at| is_synchronised(at)) else {
-            return [None, None];
+            let any = |sight: Sight| candidates.iter().any(|&at| seen[at] == sight);
+            // A seed of which no run was integrated there tells nothing, and the others decide.
+            return [match (any(Sight::Apart), any(Sight::Escaped)) {
+                (true, _) => Told::Unseen,
+                (false, true) => Told::Escaped,
+                (false, false) => Told::Nothing,
+            }; 2];
         };
         // Uncoupled nodes without an error do not tell where coupling sets in.
         let first = usize::from(self.epsilon[0] == 0.0 && is_synchronised(&0));
@@ -140,11 +196,11 @@ impl Simulated {
             for at in beyond.filter(tells) {
                 if !is_synchronised(&at) {
                     let lost = Some((self.epsilon[at], seen[at] == Sight::Escaped));
-                    return Some(OfSeed { kept: self.epsilon[kept], lost });
+                    return Told::At(OfSeed { kept: self.epsilon[kept], lost });
                 }
                 kept = at;
             }
-            Some(OfSeed { kept: self.epsilon[kept], lost: None })
+            Told::At(OfSeed { kept: self.epsilon[kept], lost: None })
         };
         [end(&mut (first..start).rev()), end(&mut (start + 1..self.epsilon.len()))]
     }
@@ -159,35 +215,44 @@ impl End {
             bound,
             limit: None,
             half_step: None,
+            groups: Vec::new(),
             n_escaped: 0,
             interval: None,
         }
     }
 
-    /// An end over seeds, of which some may tell nothing, and some that there is none; it is a bound
-    /// of this kind where it lies beyond the sweep in some.
-    fn of(seeds: &[Option<Option<OfSeed>>], beyond: Known) -> Self {
-        let midway = |seed: &Option<Option<OfSeed>>| {
-            let OfSeed { kept, lost } = (*seed)??;
-            Some(0.5 * (kept + lost?.0))
+    /// An end over seeds; it is a bound of this kind where it lies beyond the sweep in some.
+    fn of(seeds: &[Told], beyond: Known, apart: Apart) -> Self {
+        let at = |told: &Told| if let Told::At(end) = told { Some(*end) } else { None };
+        let of_seeds: Vec<Option<f64>> = seeds.iter().map(|told| at(told)?.midway()).collect();
+        let escaped = |told: &&Told| match told {
+            Told::At(end) => end.lost.is_some_and(|lost| lost.1),
+            Told::Escaped => true,
+            Told::Unseen | Told::Nothing => false,
         };
-        let of_seeds: Vec<Option<f64>> = seeds.iter().map(midway).collect();
-        let telling = || seeds.iter().flatten();
-        let escaped = |seed: &&Option<OfSeed>| seed.and_then(|s| s.lost).is_some_and(|lost| lost.1);
-        let n_escaped = telling().filter(escaped).count();
-        if telling().next().is_none() {
-            return Self { of_seeds, ..Self::none(Known::NotSwept) };
+        let n_escaped = seeds.iter().filter(escaped).count();
+        let ends: Vec<OfSeed> = seeds.iter().filter_map(at).collect();
+        let without = |bound| Self { of_seeds: of_seeds.clone(), n_escaped, ..Self::none(bound) };
+        if seeds.iter().any(|told| matches!(told, Told::Unseen)) {
+            return without(Known::Unseen);
         }
-        let Some(ends) = telling().copied().collect::<Option<Vec<OfSeed>>>() else {
-            return Self { of_seeds, n_escaped, ..Self::none(Known::Unseen) };
-        };
+        if seeds.iter().any(|told| matches!(told, Told::Escaped)) {
+            return without(Known::Escaped);
+        }
+        if ends.is_empty() {
+            return without(Known::NotSwept);
+        }
+        if let Some(groups) = grouped(&ends, beyond, apart) {
+            let least = groups[0].from.unwrap_or(0.0);
+            let most = groups[groups.len() - 1].to.unwrap_or(f64::INFINITY);
+            return Self { groups, interval: Some([least, most]), ..without(Known::Groups) };
+        }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let kept = mean(&ends.iter().map(|end| end.kept).collect::<Vec<_>>());
         let Some(lost) = ends.iter().map(|end| Some(end.lost?.0)).collect::<Option<Vec<f64>>>()
         else {
             let open = if beyond == Known::AtMost { [0.0, kept] } else { [kept, f64::INFINITY] };
-            let limit = Some(kept);
-            return Self { of_seeds, n_escaped, limit, interval: Some(open), ..Self::none(beyond) };
+            return Self { limit: Some(kept), interval: Some(open), ..without(beyond) };
         };
         let values: Vec<f64> = of_seeds.iter().flatten().copied().collect();
         let estimate = Estimate::from_independent(&values);
@@ -201,6 +266,7 @@ impl End {
             bound: Known::Measured,
             limit: None,
             half_step: half_steps.reduce(f64::max),
+            groups: Vec::new(),
             n_escaped,
             interval: Some([kept.min(lost), kept.max(lost)]),
         }
@@ -210,6 +276,37 @@ impl End {
     pub fn uncertainty(&self) -> Option<f64> {
         Some(self.spread?.max(self.half_step?))
     }
+}
+
+/// The groups into which ends fall, if they do, from small ε up. An end beyond the sweep is no number
+/// that the scatter of others could be held against: those that are measured, many steps away, are
+/// another group.
+fn grouped(ends: &[OfSeed], beyond: Known, apart: Apart) -> Option<Vec<Group>> {
+    let values: Vec<f64> = ends.iter().map(|end| end.midway().unwrap_or(end.kept)).collect();
+    // An end is known to the step of the sweep beside it.
+    let steps = ends.iter().filter_map(|end| Some((end.kept - end.lost?.0).abs()));
+    let step = steps.reduce(f64::max)?;
+    let (outside, inside): (Vec<usize>, Vec<usize>) =
+        (0..ends.len()).partition(|&at| ends[at].lost.is_none());
+    let distances = inside.iter().flat_map(|&a| outside.iter().map(move |&b| (a, b)));
+    let gap = distances.map(|(a, b)| (values[a] - values[b]).abs()).reduce(f64::min);
+    let is_split = |gap: f64| apart.counts([outside.len(), inside.len()], gap, 0.0, step);
+    let found = match (gap.is_some_and(is_split), beyond) {
+        (false, _) => groups(&values, step, apart)?,
+        (true, Known::AtMost) => vec![outside, inside],
+        (true, _) => vec![inside, outside],
+    };
+    let group = |members: Vec<usize>| {
+        let inside = |at: &usize| ends[*at].lost.is_some();
+        let is_known = |side: Known| beyond != side || members.iter().all(inside);
+        let of_members = || members.iter().map(|&at| values[at]);
+        Group {
+            n_seeds: members.len(),
+            from: is_known(Known::AtMost).then(|| of_members().fold(f64::INFINITY, f64::min)),
+            to: is_known(Known::AtLeast).then(|| of_members().fold(0.0, f64::max)),
+        }
+    };
+    Some(found.into_iter().map(group).collect())
 }
 
 #[cfg(test)]
@@ -299,6 +396,43 @@ mod tests {
         let all = [(0, 0), (0, 1), (1, 0), (1, 1)];
         let Seen { onset, end } = seen(&failed_at(sweep(), &all), None);
         assert_eq!([onset.bound, end.bound], [Known::NotSwept; 2]);
+    }
+
+    #[test]
+    fn ends_in_two_groups_have_no_mean_and_each_group_is_told() {
+        // One seed rests, and is synchronised from the first point on; the other sets in at 9.
+        let errors = |at: usize| [0.0, if at < 8 { 5.0 } else { 0.0 }];
+        let mut sweep = from(1.0, &(0..10).map(errors).collect::<Vec<_>>());
+        let onset = seen(&sweep, None).onset;
+        assert_eq!((onset.bound, onset.limit), (Known::AtMost, Some(5.0)), "it may have burst");
+        sweep.apart = Apart::EXPECTED;
+        let Seen { onset, end } = seen(&sweep, None);
+        assert_eq!((onset.bound, onset.mean, onset.limit), (Known::Groups, None, None));
+        assert_eq!((onset.interval, onset.uncertainty()), (Some([0.0, 8.5]), None));
+        let groups: Vec<String> = onset.groups.iter().map(ToString::to_string).collect();
+        assert_eq!(groups, ["1 seed at most 1", "1 seed at 8.5"]);
+        assert_eq!((end.bound, end.limit), (Known::AtLeast, Some(10.0)));
+    }
+
+    #[test]
+    fn ends_beyond_the_sweep_are_a_group_beside_those_that_scatter_inside() {
+        let end = |kept: f64, lost: Option<f64>| OfSeed { kept, lost: lost.map(|at| (at, false)) };
+        let measured = |at: f64| end(at + 0.1, Some(at - 0.1));
+        let ends = [end(0.2, None), measured(1.9), measured(3.3), end(0.2, None), measured(2.5)];
+        let of = |ends: &[OfSeed]| grouped(ends, Known::AtMost, Apart::UNEXPECTED);
+        let groups: Vec<String> = of(&ends).unwrap().iter().map(ToString::to_string).collect();
+        assert_eq!(groups, ["2 seeds at most 0.2", "3 seeds at 1.9 to 3.3"]);
+        assert_eq!(of(&ends[..3]), None, "one seed may have burst");
+        assert_eq!(of(&ends[1..3]), None);
+    }
+
+    #[test]
+    fn clusters_of_which_every_orbit_escaped_are_not_said_to_be_apart() {
+        let escapes = [f64::INFINITY; 2];
+        let onset = seen(&from(1.0, &[escapes, escapes]), None).onset;
+        assert_eq!((onset.bound, onset.n_escaped), (Known::Escaped, 2));
+        let onset = seen(&from(1.0, &[[5.0, f64::INFINITY], escapes]), None).onset;
+        assert_eq!(onset.bound, Known::Unseen);
     }
 
     #[test]

@@ -8,18 +8,26 @@ use serde_json::Value;
 use crate::support::Workplace;
 
 /// Runs the tiny experiment with faults injected; its exit status, none if it was killed.
-fn run_with(place: &Workplace, faults: &[&str]) -> Option<i32> {
+pub fn run_with(place: &Workplace, faults: &[&str]) -> Option<i32> {
     let mut command = Command::new("strace");
     command.current_dir(place.path(".")).args(["-f", "-qq", "-o", "/dev/null"]);
-    for fault in faults {
-        command.args(["-e", &format!("inject={fault}")]);
+    let mut faults = faults.iter();
+    while let Some(fault) = faults.next() {
+        match (*fault, faults.clone().next()) {
+            // Only of calls that name this path.
+            ("-P", Some(path)) => {
+                command.args(["-P", path]);
+                faults.next();
+            }
+            _ => _ = command.args(["-e", &format!("inject={fault}")]),
+        }
     }
     let eigensync = Path::new(assert_cmd::cargo::cargo_bin!("eigensync"));
     let output = command.arg(eigensync).args(["run", "tiny.toml", "--threads", "1"]).output();
     output.expect("strace can be started").status.code()
 }
 
-fn has_strace() -> bool {
+pub fn has_strace() -> bool {
     // It may be there and not be allowed to trace.
     let traced = Command::new("strace").args(["-qq", "-o", "/dev/null", "true"]).status();
     let has = traced.is_ok_and(|status| status.success());

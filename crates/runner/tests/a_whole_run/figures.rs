@@ -67,6 +67,24 @@ fn six_couplings_of_matrices_show_four() {
 }
 
 #[test]
+fn matrices_of_more_nodes_than_are_kept_are_left_out_and_foreseen() {
+    let place = Workplace::new();
+    let experiment = on_a_ring(&place, 2001)
+        .set("sweep.error_to", "0")
+        .set("sweep.seeds", "1")
+        .set("sweep.epsilon", "[2.0]")
+        .and("[spectrum]\nmodes = 3\n[figure]\nkind = \"matrices\"");
+    let (answer, messages) = results_of(&place, &experiment);
+    let expected = "there are no matrices: the errors of all pairs are kept for networks of up to \
+                    2000 nodes; the sweep is shown instead";
+    assert_eq!(messages[0], expected);
+    assert!(answer.stderr.contains(expected), "{}", answer.stderr);
+    assert!(!place.names("results/tiny").iter().any(|name| name.ends_with(".npy")));
+    let checked = place.answer(&["check", "tiny.toml"]).with_status(0);
+    assert!(checked.stdout.contains(expected), "{}", checked.stdout);
+}
+
+#[test]
 fn matrices_are_called_by_couplings_of_any_size() {
     let place = Workplace::new();
     let experiment = tiny()

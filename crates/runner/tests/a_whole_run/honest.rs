@@ -139,7 +139,7 @@ fn nodes_at_rest_or_without_coupling_are_not_called_synchronised() {
         .without_table("oscillator.rossler")
         .and("[oscillator.rossler]\na = -0.1\nb = 0.2\nc = 5.0");
     let (place, answer) = run(&experiment, SIX_NODES, 0);
-    check_warned(&place, &answer, "simulations", "is not above zero within its error");
+    check_warned(&place, &answer, "simulations", "comes to rest in the same");
     check_warned(&place, &answer, "simulations", "15 of 15 pairs have errors below");
     let summary = summary(&place);
     assert_eq!(summary["simulations"][0]["clusters"], json!([]));
@@ -185,6 +185,38 @@ fn what_the_step_does_to_errors_is_estimated_at_two_couplings() {
         assert!(ratio < 5.0 * error, "a step of 0.01 is short for Lorenz: {effect}");
     }
     assert!(!answer.stderr.contains("changes what is simulated"), "{}", answer.stderr);
+}
+
+/// Ten neurons in a row, y into x: bounded at steps of 0.05 and 0.025, and lost by one of 0.1.
+#[test]
+fn runs_that_escape_by_the_step_alone_are_told() {
+    let experiment = tiny()
+        .without_table("oscillator.lorenz")
+        .and("[oscillator.hindmarsh_rose]")
+        .set("coupling.from", "\"y\"")
+        .set("coupling.to", "\"x\"")
+        .set("msf.sigma", "{ from = 0.0, to = 2.0, points = 5 }")
+        .set("msf.average", "400")
+        .set("msf.relative_error", "0.5")
+        .set("sweep.epsilon", "[0.5, 1.0]")
+        .set("sweep.step", "0.1")
+        .set("sweep.transient", "300")
+        .set("sweep.average", "300")
+        .without("sweep.error_to")
+        .without("sweep.clusters")
+        .without_table("claims.integers");
+    let path: String = (1..10).map(|k| format!("{k} {}\n", k + 1)).collect();
+    let (place, answer) = run(&experiment, &path, 0);
+    check_warned(
+        &place,
+        &answer,
+        "simulations_step_effect",
+        "at epsilon = 1 the step of 0.1 changes what is simulated: 6 of 6 runs escaped, but 0 at half",
+    );
+    assert_eq!(summary(&place)["simulations"][1]["outcome"], "escaped");
+    let looked = "half the step of 0.1 was tried at epsilon = 0.5 (errors ";
+    assert!(answer.stderr.contains(looked), "{}", answer.stderr);
+    assert!(answer.stderr.contains("; at no other epsilon"), "{}", answer.stderr);
 }
 
 #[test]

@@ -6,6 +6,8 @@ mod comparison;
 mod faults;
 mod figures;
 mod honest;
+mod hostile;
+mod judged;
 mod odd_networks;
 mod place;
 mod predict;

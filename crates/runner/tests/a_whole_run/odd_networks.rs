@@ -1,7 +1,7 @@
 //! Networks that are not what most are, through `eigensync predict`: each is answered with a result or
 //! with what would be one.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::support::{Answer, Workplace};
 
@@ -66,7 +66,12 @@ fn self_loops_and_weights_below_zero_are_refused_with_the_step_that_helps() {
 #[test]
 fn one_node_is_no_network_to_synchronise() {
     let (_, refused) = of("net.edges", "alone\n", &[], 2);
-    check_says(&refused.stderr, &["has one node", "two or more"]);
+    check_says(&refused.stderr, &["from net.edges has one node", "two or more"]);
+    // Also where the file is another one than the experiment.
+    let place = Workplace::new();
+    place.write("networks/six-node.edges", "alone\n");
+    let refused = place.answer(&["run", "tiny.toml"]).with_status(2).stderr;
+    check_says(&refused, &["tiny.toml: `network` from networks/six-node.edges has one node"]);
 }
 
 #[test]
@@ -142,12 +147,39 @@ fn a_link_twelve_decades_weaker_than_another_still_connects() {
     assert!((critical / from - 1.0).abs() < 1e-12, "{critical} and {from}");
 }
 
+/// A triangle and a fourth node on a weak link, of weight w: λ_2 = −4w/3.
+fn weakly_tied(weight: f64) -> (Value, String) {
+    let network = format!("a b 1\nb c 1\nc a 1\nc d {weight:e}\n");
+    let (place, said) = of("net.edges", &network, &["--matrix", "laplacian"], 0);
+    (place.json("results/net/summary.json"), said.stderr)
+}
+
+#[test]
+fn a_coupling_is_as_uncertain_as_the_eigenvalue_behind_it() {
+    let (summary, _) = weakly_tied(1e-30);
+    let (sigma_c, critical) = (&summary["msf"], &summary["critical_couplings"][0]);
+    let number = |value: &Value| value.as_f64().unwrap();
+    let expected = number(&sigma_c["sigma_c"]) / (4e-30 / 3.0);
+    let error = number(&critical["standard_error"]);
+    let off = (number(&critical["epsilon"]) - expected).abs();
+    assert!(off < 2.0 * error && error < 0.1 * expected, "{critical}, expected {expected:e}");
+    // Rounding is more than the zero of Λ is uncertain by.
+    let of_zero = number(&sigma_c["standard_error"]) / number(&sigma_c["sigma_c"]);
+    assert!(error > 2.0 * of_zero * expected, "{critical}");
+    // The verdict says the same.
+    let from = &summary["global_synchrony"]["epsilon"][0];
+    assert_eq!(from["from_standard_error"], critical["standard_error"]);
+}
+
 #[test]
 fn an_eigenvalue_lost_in_rounding_is_said_to_be_uncertain() {
-    let (place, said) = of("net.edges", "a b 1e17\nb c 1\n", &["--matrix", "laplacian"], 0);
-    check_says(&said.stderr, &["lambda_2 = -1.5", "uncertain", "rounding"]);
-    let warnings = place.json("results/net/summary.json")["warnings"].clone();
-    assert!(warnings.as_array().unwrap().iter().any(|w| w["about"] == "eigenvalues"));
+    let (summary, said) = weakly_tied(1e-34);
+    check_says(&said, &["lambda_2 = -", "e-3", "is uncertain by", "rounding"]);
+    let warnings = summary["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|w| w["about"] == "eigenvalues"), "{warnings:#?}");
+    let critical = &summary["critical_couplings"][0];
+    let [epsilon, error] = ["epsilon", "standard_error"].map(|key| critical[key].as_f64().unwrap());
+    assert!(error > 0.1 * epsilon, "{critical}");
 }
 
 #[test]

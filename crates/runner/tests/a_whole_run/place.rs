@@ -24,7 +24,7 @@ fn refused(place: &Workplace, arguments: &[&str], expected: &[&str]) {
 
 /// Runs the tiny experiment, or another text under its name.
 #[track_caller]
-fn run(place: &Workplace, experiment: &Toml, options: &[&str]) -> String {
+pub fn run(place: &Workplace, experiment: &Toml, options: &[&str]) -> String {
     place.write("tiny.toml", &experiment.0);
     place.answer(&[&["run", "tiny.toml"], options].concat()).with_status(0).stderr
 }
@@ -261,7 +261,7 @@ fn whole_folders_that_0_1_0_left_hidden_are_put_in_place_before_anything_else() 
 
 /// Runs the tiny experiment as a user who owns the folder but is not root; none if that is not
 /// possible here.
-fn run_as_a_user(place: &Workplace) -> Option<(Option<i32>, String)> {
+pub fn run_as_a_user(place: &Workplace) -> Option<(Option<i32>, String)> {
     let program = assert_cmd::cargo::cargo_bin!("eigensync").to_str().unwrap();
     let root = fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
     let mut command = Command::new(if root { "setpriv" } else { program });

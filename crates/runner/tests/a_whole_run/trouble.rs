@@ -108,10 +108,11 @@ fn a_sweep_that_escapes_throughout_still_has_results_and_a_figure() {
 }
 
 #[test]
-fn a_claim_about_what_escaped_differs() {
+fn a_claim_about_what_escaped_cannot_be_judged() {
     let claim = "[claims.clusters]\nof = \"simulated.clusters\"\nwhere.epsilon = 20.0\nequals = []";
     let (place, _) = run(&rossler("[20.0]").and(claim), SIX_NODES, 1);
     let claims = place.json("results/tiny/summary.json")["claims"].clone();
-    assert_eq!([&claims[0]["verdict"], &claims[1]["verdict"]], ["holds", "differs"]);
+    assert_eq!([&claims[0]["verdict"], &claims[1]["verdict"]], ["holds", "cannot be judged"]);
+    assert_eq!(claims[1]["reason"], "at epsilon = 20 2 of 2 runs escaped");
     assert!(claims[1]["obtained"].is_null());
 }

@@ -43,6 +43,24 @@ fn a_value_of_the_wrong_type_is_answered_with_what_it_must_be() {
     must_be("sweep.epsilon", "[1, \"a\"]", &["is the text \"a\", but must be a number"]);
     must_be("sweep.clusters", "[1, 2]", &["is 1, but must be a list"]);
     must_be("sweep.clusters", "[[1.5, 2]]", &["a node label: a text or a whole number"]);
+    // Shapes that are not known are answered with those that are, by example.
+    let grid = "epsilon = { from = 0.5, to = 5.0, points = 10 } or [0.5, 1.0, 2.5]";
+    must_be("sweep.epsilon", "\"a\"", &["is the text \"a\"", grid]);
+    must_be("sweep.epsilon", "[[1, 2]]", &["is a list, but must be a number", grid]);
+    must_be("sweep.epsilon", "2.0", &["is 2.0", grid]);
+    let grid = "sigma = { from = 0.0, to = 12.0, points = 49 } or [0.0, 0.5, 1.0]";
+    must_be("msf.sigma", "[[0, 12, 7]]", &["is a list, but must be a number", grid]);
+    must_be("sweep.clusters", "[1, 2]", &["clusters = [[1, 2, 6], [3, 4, 5]]"]);
+    must_be("sweep.clusters", "\"all\"", &["clusters = [[1, 2, 6], [3, 4, 5]]"]);
+    must_be("sweep.synchronised_below", "[]", &["synchronised_below = 1e-3 or { of_largest"]);
+    check_refused(
+        &tiny().and("[figure]\nmark_modes = 2"),
+        &["`figure.mark_modes` is 2, but must be a list", "mark_modes = [2, 3]"],
+    );
+    check_refused(
+        &tiny().set("claims.integers.where", "{ epsilon = \"a\" }"),
+        &["is \"a\"", "epsilon = 0.5 or [0.5, 1.0]"],
+    );
     must_be("coupling.matrix", "3", &["must be a name in quotes"]);
     check_refused(
         &tiny().without_table("coupling").set("coupling", "5"),

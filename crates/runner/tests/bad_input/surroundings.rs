@@ -18,6 +18,35 @@ fn a_folder_in_place_of_an_experiment_is_called_one() {
 }
 
 #[test]
+fn a_name_with_line_breaks_is_shown_in_one_line() {
+    let place = Workplace::new();
+    let check = |text: &str| {
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(!lines.iter().any(|line| line.starts_with("hint: rm -rf")), "{text}");
+        assert!(text.contains("a\\nhint: rm -rf"), "{text}");
+    };
+    let name = "a\nhint: rm -rf *.toml";
+    check(&place.answer(&["run", name]).with_status(2).stderr);
+    place.write(name, tiny().0);
+    check(&place.answer(&["run", name]).with_status(2).stderr);
+    check(&place.answer(&["list", "."]).with_status(0).stdout);
+    std::fs::remove_file(place.path(name)).unwrap();
+    // So are names of other things: a network, a node, a title, a key.
+    let label = "\"a\\nhint: rm -rf\"";
+    for (key, value) in [
+        ("network.file.path", label),
+        ("sweep.error_to", label),
+        ("sweep.\"a\\nhint: rm -rf\"", "1"),
+    ] {
+        place.write("tiny.toml", tiny().set(key, value).0);
+        check(&place.answer(&["check", "tiny.toml"]).with_status(2).stderr);
+    }
+    place.write("tiny.toml", tiny().set("title", label).0);
+    check(&place.answer(&["list", "."]).with_status(0).stdout);
+    check(&place.answer(&["check", "tiny.toml"]).with_status(0).stdout);
+}
+
+#[test]
 fn nothing_is_run_when_a_later_file_is_bad() {
     let place = Workplace::new();
     place.write("bad.toml", &tiny().set("sweep.step", "-0.01").0);

@@ -11,7 +11,7 @@ mod signals;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use support::{Toml, Workplace, tiny};
 
 /// How long a run may take to get to the moment at which it is stopped.
@@ -90,6 +90,26 @@ fn send(run: &Child, signal: &str) {
 fn journal_length(place: &Workplace) -> u64 {
     let journal = place.path(&format!("{UNFINISHED}/journal"));
     std::fs::metadata(journal).map_or(0, |file| file.len())
+}
+
+/// Whether the journal holds the curve, and how many replicas: its whole records, read from the bytes
+/// as `journal/record.rs` lays them out.
+fn in_journal(place: &Workplace) -> (bool, usize) {
+    const HEAD: usize = 8 + 1 + 32 + 8 + 8;
+    let bytes = std::fs::read(place.path(&format!("{UNFINISHED}/journal"))).unwrap_or_default();
+    let (mut rest, mut curve, mut replicas) = (&bytes[..], false, 0);
+    while rest.len() >= HEAD {
+        assert!(rest.starts_with(b"eigsync1"), "a kill tears the last record alone");
+        let length = u64::from_le_bytes(rest[41..49].try_into().expect("eight bytes"));
+        let whole = HEAD + usize::try_from(length).expect("a short record") + 16;
+        if rest.len() < whole {
+            break;
+        }
+        curve |= rest[8] == 3;
+        replicas += usize::from(rest[8] == 5);
+        rest = &rest[whole..];
+    }
+    (curve, replicas)
 }
 
 /// Whether the curve and the spectrum are kept, and the sweep runs.
