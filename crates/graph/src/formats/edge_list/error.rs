@@ -94,7 +94,7 @@ pub enum EdgeListError {
         /// Number of lines read.
         lines: usize,
     },
-    /// What [`Network::undirected`] refuses beyond the above.
+    /// What [`crate::Network::undirected`] refuses beyond the above.
     #[error(transparent)]
     Network(#[from] GraphError),
 }

@@ -165,7 +165,7 @@ pub enum GraphMlError {
     /// A file without a graph.
     #[error("expected an element `graph` in `graphml`, found none")]
     NoGraph,
-    /// What [`RawNetwork`] refuses beyond the above.
+    /// What [`crate::RawNetwork`] refuses beyond the above.
     #[error(transparent)]
     Network(#[from] GraphError),
 }
