@@ -37,6 +37,7 @@ pub fn warn(plan: &Plan, warnings: &mut Warnings) {
 
 /// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
 pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
+    let spectrum = spectrum.real_modes();
     let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
     let modes = spectrum.eigenvalues.iter().enumerate().skip(n_zero);
     let mut lost = modes.filter(|(mode, lambda)| spectrum.error(*mode) > CERTAIN * lambda.abs());

@@ -75,7 +75,7 @@ pub fn spectrum(plan: &Plan, request: &spectra::Request, journal: &Journal) -> R
     let spectrum = spectrum.map_err(|error| {
         Problem::from_error("the spectrum could not be computed", error).in_file(&plan.file)
     })?;
-    let bytes = 8.0 * spectrum.eigenvectors.len() as f64 * plan.network.n_nodes() as f64;
+    let bytes = 8.0 * spectrum.n_modes() as f64 * plan.network.n_nodes() as f64;
     if is_worth_keeping(bytes, started.elapsed()) {
         journal.keep(Kind::Spectrum, &key, &spectrum);
     }

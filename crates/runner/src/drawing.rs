@@ -83,13 +83,13 @@ fn network_or_spectrum(plan: &Plan, findings: &Findings) -> Content {
 
 /// λ_k against k.
 fn spectrum(findings: &Findings) -> LinePanel {
-    let eigenvalues = &findings.spectrum.eigenvalues;
+    let eigenvalues = findings.spectrum.real_eigenvalues();
     LinePanel {
         x_label: Label::text("mode ").with_math("k"),
         y_label: Label::math("λ").subscript("k"),
         series: vec![Series {
             x: (1..=eigenvalues.len()).map(|k| k as f64).collect(),
-            y: eigenvalues.clone(),
+            y: eigenvalues,
             ..Series::default()
         }],
         ..LinePanel::default()
@@ -274,7 +274,8 @@ fn curve(
 fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
     let wanted =
         |mode: usize| plan.figure().mark_modes.as_ref().is_none_or(|modes| modes.contains(&mode));
-    let leads = |mode: usize| findings.spectrum.eigenspaces.iter().any(|e| e.start + 1 == mode);
+    let eigenspaces = findings.spectrum.real_modes().eigenspaces;
+    let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
     let markers = findings
         .critical
         .iter()

@@ -6,7 +6,7 @@ use clustering::{
 };
 use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
-use spectra::Spectrum;
+use spectra::{RealModes, Spectrum};
 
 use crate::agreement::{self, Agreement};
 use crate::check;
@@ -70,8 +70,9 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     let spectrum = computed::spectrum(plan, &request, journal)?;
     check::warn_of_weak_links(&spectrum, &mut warnings);
     // Zero modes are zero exactly, and no others are.
-    let mut critical = msf::critical_couplings(stable, &spectrum.eigenvalues, 0.0);
-    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &spectrum));
+    let modes = spectrum.real_modes();
+    let mut critical = msf::critical_couplings(stable, &modes.eigenvalues, 0.0);
+    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &modes));
     let fastest = fastest(plan, &spectrum, stable, &mut warnings);
     let fastest_rate = fastest.map_or_else(|| strongest(plan), f64::abs);
     if let Some(above) = assumed_above(stable, fastest_rate) {
@@ -85,7 +86,7 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
     }
     let known = Known { spectrum: &spectrum, fastest };
     if let Some(top) = known.top(stable) {
-        warnings.add("cascade", beyond(plan, spectrum.eigenvalues.len(), top));
+        warnings.add("cascade", beyond(plan, spectrum.n_modes(), top));
     }
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = stages
@@ -159,8 +160,8 @@ pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findi
 }
 
 /// ε_k = σ/|λ_k| is as uncertain as both; λ_k is so where the links behind it are lost in rounding.
-fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, spectrum: &Spectrum) {
-    let relative = spectrum.error(critical.mode - 1) / critical.lambda.abs();
+fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, modes: &RealModes<'_>) {
+    let relative = modes.error(critical.mode - 1) / critical.lambda.abs();
     if critical.epsilon.is_finite() {
         critical.standard_error = critical.standard_error.hypot(critical.epsilon * relative);
     }
@@ -173,8 +174,8 @@ fn fastest(
     stable: &StableRegion,
     warnings: &mut Warnings,
 ) -> Option<f64> {
-    if spectrum.eigenvalues.len() == plan.network.n_nodes() {
-        return spectrum.eigenvalues.last().copied();
+    if spectrum.is_whole() {
+        return spectrum.real_eigenvalues().last().copied();
     }
     if stable.is_unbounded() {
         return None;
@@ -190,7 +191,7 @@ fn fastest(
 
 /// The largest |w_ii|, which |λ_N| is at least.
 fn strongest(plan: &Plan) -> f64 {
-    let diagonal = plan.matrix.symmetric().diag_iter();
+    let diagonal = plan.matrix.matrix().diag_iter();
     diagonal.flatten().fold(0.0, |largest, w| largest.max(w.abs()))
 }
 

@@ -53,8 +53,8 @@ fn network(plan: &Plan) -> String {
 
 fn modes(findings: &Findings) -> String {
     let spectrum = &findings.spectrum;
-    let residual = spectrum.residuals.iter().copied().fold(0.0, f64::max);
-    let multiple = spectrum.eigenspaces.iter().filter(|modes| modes.len() > 1).count();
+    let residual = spectrum.largest_residual();
+    let multiple = spectrum.eigenspaces.iter().filter(|space| space.multiplicity() > 1).count();
     let verified = match spectrum.verification {
         Verification::Dense => "all of them were computed".to_owned(),
         Verification::Inertia { .. } => {
@@ -69,7 +69,7 @@ fn modes(findings: &Findings) -> String {
     };
     let mut text = format!(
         "{} computed, residuals up to {}; {verified}",
-        spectrum.eigenvalues.len(),
+        spectrum.n_modes(),
         two_digits(residual)
     );
     if multiple > 0 {
@@ -79,8 +79,8 @@ fn modes(findings: &Findings) -> String {
 }
 
 fn lambda(findings: &Findings) -> String {
-    let values = findings.spectrum.eigenvalues.iter().skip(1);
-    abridged(values.map(|&value| four_digits(value)))
+    let values = findings.spectrum.real_eigenvalues();
+    abridged(values.into_iter().skip(1).map(four_digits))
 }
 
 /// Λ(0) and what it says.
@@ -150,7 +150,7 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
         writeln!(text, "… and {more} more states").expect("a string takes every line");
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
-        let computed = findings.spectrum.eigenvalues.len();
+        let computed = findings.spectrum.n_modes();
         let n_nodes = plan.network.n_nodes();
         let why = match findings.spectrum.cutoff {
             _ if computed == n_nodes => {

@@ -29,7 +29,7 @@ impl Known<'_> {
     /// Takes back what was said of ε at which the slowest mode has a σ below this one, the smallest
     /// that was looked at: where nothing was found stable, something may be so there.
     pub fn end_where_the_look_began(&self, states: &mut [State], sigma: f64) {
-        let slowest = self.spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0);
+        let slowest = self.slowest();
         if let (Some(last), Some(lambda)) = (states.last_mut(), slowest)
             && sigma > 0.0
         {
@@ -38,8 +38,13 @@ impl Known<'_> {
         }
     }
 
+    /// The largest λ below 0: zero modes are zero exactly.
+    pub fn slowest(&self) -> Option<f64> {
+        self.spectrum.real_eigenvalues().into_iter().find(|&lambda| lambda < 0.0)
+    }
+
     fn is_whole(&self) -> bool {
-        self.spectrum.eigenvalues.len() == self.spectrum.eigenvectors[0].len()
+        self.spectrum.is_whole()
     }
 
     /// The states below that ε; none where nothing can be said.

@@ -294,7 +294,7 @@ pub fn summarise(
             isolated_nodes: network.isolated_nodes().len(),
             links_hash: plan.links_hash.clone(),
         },
-        eigenvalues: spectrum.eigenvalues.clone(),
+        eigenvalues: spectrum.real_eigenvalues(),
         spectrum: SpectrumRecord {
             solver: match spectrum.solver {
                 spectra::Solver::Dense => "dense",
@@ -303,13 +303,14 @@ pub fn summarise(
                 spectra::Solver::ShiftInvert => "shift-invert",
             },
             multiple: spectrum
+                .real_modes()
                 .eigenspaces
                 .iter()
                 .filter(|modes| modes.len() > 1)
                 .map(|modes| [modes.start + 1, modes.end])
                 .collect(),
             tolerance: spectrum.tolerance,
-            largest_residual: spectrum.residuals.iter().copied().fold(0.0, f64::max),
+            largest_residual: spectrum.largest_residual(),
             cutoff: spectrum.cutoff,
             verified: verified(spectrum.verification),
         },

@@ -67,7 +67,7 @@ fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()>
 }
 
 fn write_spectrum(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
-    let spectrum = &findings.spectrum;
+    let spectrum = findings.spectrum.real_modes();
     let header = ["mode", "lambda", "residual"].map(str::to_owned);
     let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate();
     let rows = modes.map(|(k, (lambda, residual))| {

@@ -103,8 +103,7 @@ impl Evidence<'_> {
     }
 
     fn slowest(&self) -> Option<f64> {
-        // Zero modes are zero exactly.
-        self.known.spectrum.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0)
+        self.known.slowest()
     }
 
     fn eigenratio(&self) -> Option<f64> {
@@ -225,7 +224,7 @@ mod tests {
         let spectrum = leading_modes(&w, &Request::default()).unwrap();
         let stable = StableRegion { intervals };
         let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
-        let fastest = spectrum.eigenvalues.last().copied();
+        let fastest = spectrum.real_eigenvalues().last().copied();
         let evidence = Evidence {
             known: Known { spectrum: &spectrum, fastest },
             critical: &[],

@@ -65,9 +65,9 @@ impl Judge<'_> {
     }
 
     fn eigenvalues(&self) -> Vec<Number> {
-        let spectrum = &self.findings.spectrum;
-        let computed = spectrum.eigenvalues.len();
-        let number = |mode: usize| match spectrum.eigenvalues.get(mode - 1) {
+        let eigenvalues = self.findings.spectrum.real_eigenvalues();
+        let computed = eigenvalues.len();
+        let number = |mode: usize| match eigenvalues.get(mode - 1) {
             Some(&value) => Number::Known { value, error: self.eigenvalue_error(mode) },
             None => self.not_computed(mode),
         };
@@ -84,7 +84,7 @@ impl Judge<'_> {
     /// How far an eigenvalue is known. Those of one eigenspace are equal as far as anyone can tell, so
     /// that they are in no order.
     fn eigenvalue_error(&self, mode: usize) -> f64 {
-        let spectrum = &self.findings.spectrum;
+        let spectrum = self.findings.spectrum.real_modes();
         let error = spectrum.error(mode - 1);
         let is_multiple =
             |space: &std::ops::Range<usize>| space.len() > 1 && space.contains(&(mode - 1));
@@ -96,15 +96,15 @@ impl Judge<'_> {
     }
 
     pub(super) fn not_computed(&self, mode: usize) -> Number {
-        let (computed, all) =
-            (self.findings.spectrum.eigenvalues.len(), self.plan.network.n_nodes());
+        let (computed, all) = (self.findings.spectrum.n_modes(), self.plan.network.n_nodes());
         Number::Unknown(format!("{computed} of {all} modes were computed, and not mode {mode}"))
     }
 
     fn critical_couplings(&self) -> Vec<Number> {
         let findings = self.findings;
+        let eigenvalues = findings.spectrum.real_eigenvalues();
         let number = |&mode: &usize| {
-            if mode > findings.spectrum.eigenvalues.len() {
+            if mode > eigenvalues.len() {
                 return self.not_computed(mode);
             }
             let is_meant = |c: &&msf::CriticalCoupling| c.mode == mode && c.stable_above;
@@ -118,7 +118,7 @@ impl Judge<'_> {
                     Number::Known { value: c.epsilon, error: c.standard_error }
                 }
                 Some(_) => Number::None,
-                None => self.no_edge(-findings.spectrum.eigenvalues[mode - 1]),
+                None => self.no_edge(-eigenvalues[mode - 1]),
             }
         };
         self.spec.at.modes.iter().flatten().map(number).collect()

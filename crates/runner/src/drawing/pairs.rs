@@ -18,10 +18,11 @@ const DEFAULT_MODES: std::ops::RangeInclusive<usize> = 2..=4;
 
 /// The network, its eigenvectors, and for each ε (the largest first) both matrices.
 pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
+    let vectors = findings.spectrum.real_modes().eigenvectors;
     let modes: Vec<Mode> = shown_modes(plan, findings)
         .into_iter()
         .filter_map(|mode| {
-            let components = findings.spectrum.eigenvectors.get(mode - 1)?.clone();
+            let components = vectors.get(mode - 1)?.to_vec();
             Some(Mode { label: Label::math("v").subscript(&mode.to_string()), components })
         })
         .collect();
@@ -144,7 +145,7 @@ fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
 
 /// The modes asked for, else those of [`DEFAULT_MODES`] that were computed, or the only one.
 fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
-    let computed = findings.spectrum.eigenvectors.len();
+    let computed = findings.spectrum.n_modes();
     plan.figure().eigenvectors.clone().unwrap_or_else(|| {
         let modes: Vec<usize> = DEFAULT_MODES.filter(|&mode| mode <= computed).collect();
         if modes.is_empty() { vec![1] } else { modes }

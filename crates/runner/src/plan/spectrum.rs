@@ -106,6 +106,11 @@ impl Checker<'_> {
             SolverKind::Chebyshev => SolverChoice::Chebyshev,
             SolverKind::ShiftInvert => SolverChoice::ShiftInvert,
         };
+        if !solver.is_built() {
+            let message = "is \"arpack\", but this program was built without its feature `arpack`";
+            let hint = "leave `spectrum.solver` out, or set it to \"chebyshev\"";
+            return Err(self.problem("spectrum.solver", message).hint(hint));
+        }
         if let Some(tolerance) = spec.tolerance
             && !(1e-13..=1e-3).contains(&tolerance)
         {

@@ -50,7 +50,7 @@ impl Checker<'_> {
         let step = sweep.schedule.step;
         let Some(steps) = self.linear_steps(&plan.node, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
-        let diagonal = plan.matrix.symmetric().diag_iter().flatten();
+        let diagonal = plan.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
         // By Gershgorin |λ_N| is no more, and need not be known where the step is sound even so.
         if steps.judge(epsilon * bound, step) == StepVerdict::Sound {
