@@ -5,6 +5,7 @@ mod number;
 mod numbers;
 mod obtained;
 
+use eigensync::Findings;
 use std::fmt;
 
 pub use clusters::labelled;
@@ -12,7 +13,6 @@ use number::Number;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
 use crate::spec::{ClaimSpec, OneOrMany, Quantity};

@@ -3,6 +3,8 @@
 
 mod exactness;
 
+use eigensync::numbers::{four_digits, two_digits, with_error};
+use eigensync::{Findings, looked};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
@@ -11,12 +13,8 @@ use comfy_table::presets::NOTHING;
 use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
-use crate::stability::with_error;
-use crate::synchrony::looked;
-use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
 const SHOWN: usize = 12;
@@ -43,8 +41,8 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
 }
 
 fn network(plan: &Plan) -> String {
-    let network = &plan.network;
-    let parts = match plan.n_components {
+    let network = &plan.study.network;
+    let parts = match plan.study.n_components {
         1 => "connected".into(),
         parts => format!("{} components", grouped(parts)),
     };
@@ -151,7 +149,7 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
         let computed = findings.spectrum.n_modes();
-        let n_nodes = plan.network.n_nodes();
+        let n_nodes = plan.study.network.n_nodes();
         let why = match findings.spectrum.cutoff {
             _ if computed == n_nodes => {
                 "below which a mode comes to a sigma that was not looked at".to_owned()

@@ -2,13 +2,11 @@
 //! none.
 
 use clustering::RegionClusters;
+use eigensync::numbers::{four_digits, plain};
+use eigensync::{Agreement, End, Known, Predicted, Regions, Simulated};
 
 use super::{Judge, Number};
-use crate::agreement::{Agreement, Predicted, Regions};
-use crate::problem::plain;
-use crate::simulated::{End, Known, Simulated};
 use crate::spec::Quantity;
-use crate::table::four_digits;
 
 impl Judge<'_> {
     /// The numbers of the claim's quantity, one for each mode or ε.
@@ -31,8 +29,10 @@ impl Judge<'_> {
                 self.at_each_epsilon(|simulated, at| cluster_error(simulated, at, &clusters))
             }
             Quantity::Nodes => vec![Number::exactly(self.counted_nodes() as f64)],
-            Quantity::Links => vec![Number::exactly(self.plan.network.n_links() as f64)],
-            Quantity::Groups => vec![Number::exactly(self.plan.network.groups().len() as f64)],
+            Quantity::Links => vec![Number::exactly(self.plan.study.network.n_links() as f64)],
+            Quantity::Groups => {
+                vec![Number::exactly(self.plan.study.network.groups().len() as f64)]
+            }
             Quantity::Pearson => {
                 self.agreements(|a| known(a.correlation.map(|c| c.pearson), a.errors.pearson))
             }
@@ -74,7 +74,7 @@ impl Judge<'_> {
         match &self.spec.at.modes {
             Some(modes) => modes.iter().map(|&mode| number(mode)).collect(),
             // All, of which a part says nothing of the rest.
-            None if computed < self.plan.network.n_nodes() => {
+            None if computed < self.plan.study.network.n_nodes() => {
                 (1..=computed + 1).map(number).collect()
             }
             None => (1..=computed).map(number).collect(),
@@ -96,7 +96,8 @@ impl Judge<'_> {
     }
 
     pub(super) fn not_computed(&self, mode: usize) -> Number {
-        let (computed, all) = (self.findings.spectrum.n_modes(), self.plan.network.n_nodes());
+        let all = self.plan.study.network.n_nodes();
+        let computed = self.findings.spectrum.n_modes();
         Number::Unknown(format!("{computed} of {all} modes were computed, and not mode {mode}"))
     }
 
@@ -161,7 +162,7 @@ impl Judge<'_> {
 
     /// The nodes of the network, or of the groups that the claim is about.
     fn counted_nodes(&self) -> usize {
-        let network = &self.plan.network;
+        let network = &self.plan.study.network;
         let Some(prefix) = &self.spec.at.group_prefix else { return network.n_nodes() };
         let groups = network.groups().iter().filter(|group| group.name.starts_with(prefix));
         groups.map(|group| group.nodes.len()).sum()

@@ -4,10 +4,8 @@
 use dynamics::Estimate;
 use msf::{Attractor, End, Isolated, Zero};
 
-use crate::plan::Plan;
-use crate::problem::plain;
-use crate::table::{four_digits, two_digits};
-use crate::warning::Warnings;
+use crate::numbers::{four_digits, plain, with_error};
+use crate::{Study, Warnings};
 
 /// What half the step changes is said of Λ(0) from this share of it on; below, it is in its error.
 const STEP_MATTERS: f64 = 0.02;
@@ -21,20 +19,15 @@ pub fn word(state: Isolated) -> &'static str {
     }
 }
 
-/// A number with its standard error.
-pub fn with_error(value: f64, error: f64) -> String {
-    format!("{} ± {}", four_digits(value), two_digits(error))
-}
-
 /// Adds what is doubtful about a curve, and what follows for the network.
-pub fn warn(plan: &Plan, msf: &msf::MasterStability, warnings: &mut Warnings) {
+pub fn warn(study: &Study, msf: &msf::MasterStability, warnings: &mut Warnings<'_>) {
     for zero in msf.stable.zeros().filter(|zero| !zero.refined) {
-        warnings.add("msf.zeros", unrefined(plan, zero));
+        warnings.add("msf.zeros", unrefined(study, zero));
     }
     if let Some(shift) =
         msf.certain_isolated_step_shift().filter(|shift| is_large(*shift, msf.isolated))
     {
-        warnings.add("msf.lyapunov_isolated", shifted_isolated(plan, shift));
+        warnings.add("msf.lyapunov_isolated", shifted_isolated(study, shift));
     }
     for interval in &msf.stable.intervals {
         if let End::Looked { sigma } = interval.from {
@@ -52,8 +45,8 @@ pub fn warn(plan: &Plan, msf: &msf::MasterStability, warnings: &mut Warnings) {
     if msf.state == Isolated::AtRest {
         warnings.add("msf.isolated_state", at_rest(msf));
     }
-    if plan.n_components > 1 && !msf.stable.contains(0.0) {
-        let n = plan.n_components;
+    if study.n_components > 1 && !msf.stable.contains(0.0) {
+        let n = study.n_components;
         let message = format!(
             "the network has {n} components, so {n} modes have eigenvalue 0 and no coupling \
              synchronises it globally"
@@ -78,13 +71,13 @@ fn at_rest(msf: &msf::MasterStability) -> String {
     )
 }
 
-fn unrefined(plan: &Plan, zero: Zero) -> String {
-    let asked = plan.msf.refinement.relative_error;
+fn unrefined(study: &Study, zero: Zero) -> String {
+    let asked = study.msf.refinement.relative_error;
     let by_step = zero.certain_step_shift();
     let why = match by_step.filter(|shift| shift.mean.abs() > asked * zero.sigma) {
         Some(shift) => format!(
             "half of `msf.step` = {} moves it by {}. A shorter step would help",
-            plain(plan.msf.times.step),
+            plain(study.msf.times.step),
             with_error(shift.mean, shift.standard_error)
         ),
         None => "a longer `msf.average` or a finer grid near it would help".to_owned(),
@@ -101,10 +94,10 @@ fn is_large(shift: Estimate, number: Estimate) -> bool {
     shift.mean.abs() > STEP_MATTERS * number.mean.abs()
 }
 
-fn shifted_isolated(plan: &Plan, shift: Estimate) -> String {
+fn shifted_isolated(study: &Study, shift: Estimate) -> String {
     format!(
         "half of `msf.step` = {} changes Λ(0) by {}, and the curve Λ(sigma) likewise: take a shorter step",
-        plain(plan.msf.times.step),
+        plain(study.msf.times.step),
         with_error(shift.mean, shift.standard_error)
     )
 }

@@ -14,13 +14,12 @@ mod range;
 use clustering::Partition;
 use dynamics::{Errors, Estimate, Outcome, Run};
 
-use crate::plan::Sweep;
-use crate::spec::Bound;
+use crate::{Bound, Sweep};
 
 use groups::groups;
 
 pub use groups::Apart;
-pub use range::{End, Known, Seen};
+pub use range::{End, Group, Known, Seen};
 
 /// Errors below this, in units of the component, are what rounding and kicks leave of perfect
 /// synchrony: nodes that far apart are together, whatever fraction of the largest error it is.
@@ -32,8 +31,11 @@ const BURSTS: f64 = 0.05;
 
 /// The runs of a sweep, seed by seed within each ε.
 pub struct Simulated {
+    /// Coupling strengths, ascending.
     pub epsilon: Vec<f64>,
+    /// Seeds of initial states.
     pub seeds: Vec<u64>,
+    /// One for each ε and seed.
     pub runs: Vec<Run>,
     /// How far apart groups of seeds must be to count.
     pub apart: Apart,
@@ -74,6 +76,7 @@ impl MeanPairs {
 }
 
 impl Simulated {
+    /// The runs of a sweep of so many nodes.
     pub fn new(sweep: &Sweep, n_nodes: usize, runs: Vec<Run>) -> Self {
         Self {
             epsilon: sweep.epsilon.clone(),

@@ -17,11 +17,9 @@ use std::fmt;
 use dynamics::{Errors, Estimate, Method, Replica, Run, Schedule};
 use serde::{Deserialize, Serialize};
 
-use crate::plan::Sweep;
-use crate::problem::plain;
+use crate::numbers::{plain, two_digits};
 use crate::simulated::{Simulated, completed, observed};
-use crate::table::two_digits;
-use crate::warning::Warnings;
+use crate::{Sweep, Warnings};
 
 /// Seeds at each coupling: those of the sweep, and those that follow.
 const SEEDS: u64 = 6;
@@ -41,6 +39,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// What is run: twice the same replicas.
 pub struct Probe {
+    /// Some of those of the sweep, with further seeds.
     pub replicas: Vec<Replica>,
     /// At the step of the sweep and at half of it, over the same time.
     pub schedules: [Schedule; 2],
@@ -49,11 +48,13 @@ pub struct Probe {
 /// The effect of the step at one coupling.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StepEffect {
+    /// The coupling.
     pub epsilon: f64,
     /// Step of the sweep.
     pub step: f64,
     /// Times before the averages and of them, no longer than those of the sweep.
     pub transient: f64,
+    /// Time of the average.
     pub average: f64,
     /// Runs that stayed bounded at both steps.
     pub n_seeds: usize,
@@ -130,7 +131,7 @@ impl Probe {
 
 impl StepEffect {
     /// Says what the step does to the errors where that is more than chance and some per cent.
-    pub fn warn(&self, warnings: &mut Warnings) {
+    pub fn warn(&self, warnings: &mut Warnings<'_>) {
         let Some(what) = self.doubt() else { return };
         let Self { epsilon, step, .. } = self;
         let message = format!(

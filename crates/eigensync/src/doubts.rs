@@ -1,15 +1,15 @@
 //! What must be known beside the errors of a sweep: runs that escaped, nodes that settle by themselves
 //! or are uncoupled, averages over less time than the oscillator needs to come back.
 
+use std::collections::BTreeMap;
+
+use dynamics::{Outcome, Run};
 use msf::{Isolated, MasterStability};
 
-use crate::findings::Findings;
-use crate::plan::{Plan, Sweep};
-use crate::problem::plain;
+use crate::numbers::{four_digits, plain, two_digits, with_error};
 use crate::simulated::{Apart, Known, Seen, Simulated};
-use crate::stability::{with_error, word};
-use crate::table::{four_digits, two_digits};
-use crate::warning::Warnings;
+use crate::stability::word;
+use crate::{Findings, Study, Sweep, Warnings};
 
 /// The least averages and transients, in slow times of the oscillator.
 const LEAST_AVERAGE: f64 = 10.0;
@@ -18,17 +18,18 @@ const LEAST_TRANSIENT: f64 = 2.0;
 const NAMED: usize = 8;
 
 /// Warns of times too short for the slowest motion of the oscillator, before anything is simulated.
-pub fn warn_of_short_times(plan: &Plan, warnings: &mut Warnings) {
-    let component = plan.sweep.as_ref().map_or(0, |sweep| sweep.observables.component);
-    let seed = plan.experiment.seed;
-    let slow = dynamics::slow_time(&plan.node.model, component, plan.msf.times.step, seed);
+pub fn warn_of_short_times(study: &Study, warnings: &mut Warnings<'_>) {
+    let component = study.sweep.as_ref().map_or(0, |sweep| sweep.observables.component);
+    let seed = study.seed;
+    let slow =
+        dynamics::slow_time(study.node.dynamics.as_ref(), component, study.msf.times.step, seed);
     // An orbit at rest has no slow time, and the master stability function tells of one that escapes.
     let Ok(Some(slow)) = slow else { return };
     let mut times = vec![
-        ("experiment.msf.average", "msf.average", plan.msf.times.average, LEAST_AVERAGE),
-        ("experiment.msf.transient", "msf.transient", plan.msf.times.transient, LEAST_TRANSIENT),
+        ("experiment.msf.average", "msf.average", study.msf.times.average, LEAST_AVERAGE),
+        ("experiment.msf.transient", "msf.transient", study.msf.times.transient, LEAST_TRANSIENT),
     ];
-    if let Some(Sweep { schedule, .. }) = &plan.sweep {
+    if let Some(Sweep { schedule, .. }) = &study.sweep {
         times.push(("experiment.sweep.average", "sweep.average", schedule.average, LEAST_AVERAGE));
         times.push((
             "experiment.sweep.transient",
@@ -52,7 +53,7 @@ pub fn warn_of_short_times(plan: &Plan, warnings: &mut Warnings) {
 }
 
 /// Warns of what errors of a sweep do not mean, and of runs that are in no mean.
-pub fn warn_of_runs(msf: &MasterStability, simulated: &Simulated, warnings: &mut Warnings) {
+pub fn warn_of_runs(msf: &MasterStability, simulated: &Simulated, warnings: &mut Warnings<'_>) {
     warn_of_isolated(msf, warnings);
     warn_of_zero_coupling(simulated, warnings);
     warn_of_escapes(simulated, warnings);
@@ -66,7 +67,7 @@ pub fn apart(msf: &MasterStability) -> Apart {
 }
 
 /// Warns of predicted states that seeds of the sweep show from, or up to, different ε on.
-pub fn warn_of_groups(findings: &Findings, warnings: &mut Warnings) {
+pub fn warn_of_groups(findings: &Findings, warnings: &mut Warnings<'_>) {
     if !findings.simulated.as_ref().is_some_and(Simulated::has_pairs) {
         return;
     }
@@ -90,7 +91,7 @@ pub fn warn_of_groups(findings: &Findings, warnings: &mut Warnings) {
 }
 
 /// What errors mean follows from what a node does by itself, where that is not chaos on one attractor.
-fn warn_of_isolated(msf: &MasterStability, warnings: &mut Warnings) {
+fn warn_of_isolated(msf: &MasterStability, warnings: &mut Warnings<'_>) {
     let exponent = with_error(msf.isolated.mean, msf.isolated.standard_error);
     let what = if msf.attractors.len() > 1 {
         let kinds: Vec<&str> = msf.attractors.iter().map(|a| word(a.state)).collect();
@@ -125,7 +126,7 @@ fn warn_of_isolated(msf: &MasterStability, warnings: &mut Warnings) {
 }
 
 /// Every stretch of ε at which runs fall into two groups.
-fn warn_of_parted_runs(simulated: &Simulated, warnings: &mut Warnings) {
+fn warn_of_parted_runs(simulated: &Simulated, warnings: &mut Warnings<'_>) {
     let parted: Vec<usize> =
         (0..simulated.epsilon.len()).filter(|&at| simulated.parted(at).is_some()).collect();
     let stretches: Vec<&[usize]> = parted.chunk_by(|a, b| b - a == 1).collect();
@@ -151,8 +152,35 @@ fn warn_of_parted_runs(simulated: &Simulated, warnings: &mut Warnings) {
     tell_of_others("fall into groups", stretches.len(), warnings);
 }
 
+/// Couplings at which the integrator gave up, each with its seeds.
+pub fn warn_of_failures(runs: &[Run], warnings: &mut Warnings<'_>) {
+    let mut at: BTreeMap<u64, Vec<(&Run, f64, &str)>> = BTreeMap::new();
+    for run in runs {
+        if let Outcome::Failed { time, reason } = &run.outcome {
+            at.entry(run.replica.epsilon.to_bits()).or_default().push((run, *time, reason));
+        }
+    }
+    for failed in at.into_values() {
+        let (run, time, reason) = failed[0];
+        let seeds: Vec<String> =
+            failed.iter().map(|(run, ..)| run.replica.seed.to_string()).collect();
+        warnings.add(
+            "simulations",
+            format!(
+                "at epsilon = {} the integrator gave up with seed{} {}, first at time {}: {}; a \
+                 looser `sweep.tolerance` or weaker coupling is within its reach",
+                plain(run.replica.epsilon),
+                if seeds.len() == 1 { "" } else { "s" },
+                seeds.join(", "),
+                plain(time),
+                reason
+            ),
+        );
+    }
+}
+
 /// Ranges of ε that are not named.
-fn tell_of_others(what: &str, stretches: usize, warnings: &mut Warnings) {
+fn tell_of_others(what: &str, stretches: usize, warnings: &mut Warnings<'_>) {
     if let Some(left) = stretches.checked_sub(NAMED).filter(|&left| left > 0) {
         let message = format!("runs {what} in {left} more ranges of epsilon, see sweep.csv");
         warnings.add("simulations", message);
@@ -169,7 +197,7 @@ fn place(simulated: &Simulated, stretch: &[usize]) -> String {
 }
 
 /// Nodes without coupling whose errors are small are alike by their own dynamics.
-fn warn_of_zero_coupling(simulated: &Simulated, warnings: &mut Warnings) {
+fn warn_of_zero_coupling(simulated: &Simulated, warnings: &mut Warnings<'_>) {
     let Some(position) = simulated.position(0.0) else { return };
     let Some(mean) = simulated.mean_pairs(position) else { return };
     let (bound, n_nodes) = (simulated.bound(position), simulated.n_nodes());
@@ -188,7 +216,7 @@ fn warn_of_zero_coupling(simulated: &Simulated, warnings: &mut Warnings) {
 }
 
 /// Every stretch of ε at which the same number of runs escaped.
-fn warn_of_escapes(simulated: &Simulated, warnings: &mut Warnings) {
+fn warn_of_escapes(simulated: &Simulated, warnings: &mut Warnings<'_>) {
     let n_runs = simulated.seeds.len();
     let escaped: Vec<usize> =
         (0..simulated.epsilon.len()).map(|at| simulated.escaped(at)).collect();

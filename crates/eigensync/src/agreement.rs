@@ -16,13 +16,12 @@ use clustering::{
 use dynamics::pair_index;
 use spectra::Spectrum;
 
-use crate::plan::Plan;
-use crate::problem::{Problem, Result};
 use crate::simulated::{MeanPairs, Simulated};
-use crate::spec::{Bound, RegionsSpec};
+use crate::{Bound, Error, RegionBounds, Study};
 
 /// Both sides at one ε.
 pub struct Agreement {
+    /// What the prediction says.
     pub predicted: Predicted,
     /// Of δx_ij with δe_ij; none where either is the same for all pairs.
     pub correlation: Option<Correlation>,
@@ -30,6 +29,7 @@ pub struct Agreement {
     pub rand_index: Option<f64>,
     /// How far these depend on the seeds.
     pub errors: StandardErrors,
+    /// The regions of both sides, where the study has thresholds for them.
     pub regions: Option<Regions>,
 }
 
@@ -49,15 +49,21 @@ pub enum Predicted {
 /// Standard errors by the jackknife; none with fewer than two seeds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StandardErrors {
+    /// Of Pearson's correlation.
     pub pearson: Option<f64>,
+    /// Of Spearman's rank correlation.
     pub spearman: Option<f64>,
+    /// Of the adjusted Rand index.
     pub rand_index: Option<f64>,
 }
 
 /// The two-threshold analysis of both sides.
 pub struct Regions {
+    /// From δe_ij.
     pub predicted: RegionClusters,
+    /// From δx_ij.
     pub simulated: RegionClusters,
+    /// How far they agree.
     pub agreement: RegionAgreement,
 }
 
@@ -75,7 +81,7 @@ impl Predicted {
     pub fn distance(
         &self,
         spectrum: &Spectrum,
-    ) -> std::result::Result<Option<EigenvectorDistance>, ClusteringError> {
+    ) -> Result<Option<EigenvectorDistance>, ClusteringError> {
         match self {
             Self::Unstable(modes) => EigenvectorDistance::new(spectrum, modes).map(Some),
             _ => Ok(None),
@@ -85,35 +91,34 @@ impl Predicted {
 
 /// The agreement at every ε of a sweep whose pairs were observed; empty otherwise.
 pub fn at_all(
-    plan: &Plan,
+    study: &Study,
     spectrum: &Spectrum,
     states: &[State],
     simulated: &Simulated,
-) -> Result<Vec<Agreement>> {
+) -> Result<Vec<Agreement>, Error> {
     let positions = 0..simulated.epsilon.len();
-    if !plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs) {
+    if !study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs) {
         return Ok(Vec::new());
     }
-    let failed = |error: ClusteringError| {
-        Problem::from_error("prediction and simulation cannot be compared", error)
-            .in_file(&plan.file)
-    };
-    positions.map(|at| at_one(plan, spectrum, states, simulated, at).map_err(failed)).collect()
+    positions
+        .map(|at| at_one(study, spectrum, states, simulated, at).map_err(Error::Agreement))
+        .collect()
 }
 
 fn at_one(
-    plan: &Plan,
+    study: &Study,
     spectrum: &Spectrum,
     states: &[State],
     simulated: &Simulated,
     position: usize,
-) -> std::result::Result<Agreement, ClusteringError> {
+) -> Result<Agreement, ClusteringError> {
     let epsilon = simulated.epsilon[position];
     let state = states.iter().find(|state| state.holds_at(epsilon));
     let predicted = Predicted::at(epsilon, state);
-    let distance = predicted.distance(spectrum)?.map(|distance| all_pairs(plan, &distance));
-    let compare =
-        |error: &MeanPairs| Numbers::of(plan, state, distance.as_ref(), simulated, position, error);
+    let distance = predicted.distance(spectrum)?.map(|distance| all_pairs(study, &distance));
+    let compare = |error: &MeanPairs| {
+        Numbers::of(study, state, distance.as_ref(), simulated, position, error)
+    };
     let Some(error) = simulated.mean_pairs(position) else {
         let (correlation, rand_index, errors) = (None, None, StandardErrors::default());
         return Ok(Agreement { predicted, correlation, rand_index, errors, regions: None });
@@ -122,10 +127,10 @@ fn at_one(
     let errors = StandardErrors::of(simulated.bounded(position), |seed| {
         compare(&simulated.mean_pairs_without(position, seed).expect("another seed is left"))
     });
-    let regions = match (&distance, &plan.experiment.regions) {
+    let regions = match (&distance, &study.regions) {
         (Some(distance), Some(spec)) => {
-            let distance = |i, j| value(distance, i, j, plan.network.n_nodes());
-            Some(regions(plan, spec, distance, |i, j| error.of(i, j))?)
+            let distance = |i, j| value(distance, i, j, study.network.n_nodes());
+            Some(regions(study, spec, distance, |i, j| error.of(i, j))?)
         }
         _ => None,
     };
@@ -133,8 +138,8 @@ fn at_one(
 }
 
 /// δe_ij of all pairs i < j, each computed once.
-fn all_pairs(plan: &Plan, distance: &EigenvectorDistance) -> Vec<f64> {
-    let n_nodes = plan.network.n_nodes();
+fn all_pairs(study: &Study, distance: &EigenvectorDistance) -> Vec<f64> {
+    let n_nodes = study.network.n_nodes();
     let pairs = (0..n_nodes).flat_map(|i| (i + 1..n_nodes).map(move |j| (i, j)));
     pairs.map(|(i, j)| distance.between(i, j)).collect()
 }
@@ -151,14 +156,14 @@ struct Numbers {
 
 impl Numbers {
     fn of(
-        plan: &Plan,
+        study: &Study,
         state: Option<&State>,
         distance: Option<&Vec<f64>>,
         simulated: &Simulated,
         position: usize,
         error: &MeanPairs,
     ) -> Self {
-        let n_nodes = plan.network.n_nodes();
+        let n_nodes = study.network.n_nodes();
         let found: Partition = simulated.clusters_of(position, error);
         let correlation = distance.and_then(|distance| {
             correlation_of_pairs(
@@ -197,12 +202,12 @@ fn jackknife(numbers: impl Iterator<Item = Option<f64>>) -> Option<f64> {
 }
 
 fn regions(
-    plan: &Plan,
-    spec: &RegionsSpec,
+    study: &Study,
+    spec: &RegionBounds,
     distance: impl Fn(usize, usize) -> f64,
     error: impl Fn(usize, usize) -> f64,
-) -> std::result::Result<Regions, ClusteringError> {
-    let (n_nodes, groups) = (plan.network.n_nodes(), plan.network.groups());
+) -> Result<Regions, ClusteringError> {
+    let (n_nodes, groups) = (study.network.n_nodes(), study.network.groups());
     let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
     let predicted = RegionDistances::new(n_nodes, &nodes, &distance)?.clusters(thresholds(
         [spec.distance_within, spec.distance_between],

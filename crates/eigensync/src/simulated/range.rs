@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use super::Simulated;
 use super::groups::{Apart, groups};
-use crate::table::four_digits;
+use crate::numbers::four_digits;
 
 /// Both ends of the range in which clusters were seen.
 #[derive(Clone, Debug)]
@@ -58,6 +58,7 @@ pub struct End {
     pub spread: Option<f64>,
     /// Of each seed in which it was measured.
     pub of_seeds: Vec<Option<f64>>,
+    /// How it is known.
     pub bound: Known,
     /// Where it is at most or at least this.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,9 +79,11 @@ pub struct End {
 /// Seeds in which an end lies near the same ε.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Group {
+    /// How many they are.
     pub n_seeds: usize,
     /// The least and the most in these seeds; none where it lies beyond the sweep on that side.
     pub from: Option<f64>,
+    /// The most.
     pub to: Option<f64>,
 }
 

@@ -10,8 +10,8 @@ use clustering::State;
 use msf::{CriticalCoupling, End, Interval, StableRegion};
 use serde::Serialize;
 
+use crate::numbers::{four_digits, three_digits, two_digits};
 use crate::prediction::Known;
-use crate::table::{four_digits, three_digits, two_digits};
 
 /// The verdict with its numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -29,10 +29,13 @@ pub struct Synchrony {
 /// A range of ε with the standard errors of its ends.
 #[derive(Clone, Debug, Serialize)]
 pub struct EpsilonRange {
+    /// Lower end.
     pub from: f64,
+    /// Of the lower end, where it is a zero of Λ over an eigenvalue.
     pub from_standard_error: Option<f64>,
     /// None where it has no end.
     pub to: Option<f64>,
+    /// Of the upper end.
     pub to_standard_error: Option<f64>,
 }
 
@@ -59,6 +62,7 @@ pub fn assumed_above(stable: &StableRegion, fastest_rate: f64) -> Option<f64> {
 }
 
 impl Synchrony {
+    /// From the evidence.
     pub fn of(evidence: &Evidence<'_>) -> Self {
         let stable = evidence.stable;
         let epsilon = evidence.ranges();
