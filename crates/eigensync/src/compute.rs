@@ -1,9 +1,11 @@
 //! What a study computes at length, one piece of work a method, so that whoever keeps finished work can
 //! stand in between.
 
+use std::ops::ControlFlow;
+
 use dynamics::{DynamicsError, Next, Outcome, Progress, Run, Snapshot, Start};
-use msf::MasterStability;
-use spectra::Spectrum;
+use msf::{MasterStability, MsfError};
+use spectra::{SpectraError, Spectrum};
 
 use crate::{Error, Observer, Probe, Simulated, StepEffect, Study, Sweep, Warning};
 
@@ -64,14 +66,20 @@ impl Compute for Plainly<'_> {
     fn curve(&self, study: &Study) -> Result<MasterStability, Error> {
         self.go_on()?;
         self.0.begins("msf", Some(study.msf_steps()));
-        let advanced = |steps| self.0.advanced(steps);
-        msf::master_stability(&study.node, &study.msf, &advanced).map_err(Error::Curve)
+        let advanced = |steps| told(self.0, steps);
+        msf::master_stability(&study.node, &study.msf, &advanced).map_err(not_curve)
     }
 
     fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
         self.go_on()?;
         self.0.begins("spectrum", None);
-        spectra::leading_modes(&study.matrix, request).map_err(Error::Spectrum)
+        let advanced = |_| told(self.0, 0);
+        spectra::leading_modes_with(&study.matrix, request, &advanced).map_err(
+            |error| match error {
+                SpectraError::Cancelled => Error::Cancelled,
+                other => Error::Spectrum(other),
+            },
+        )
     }
 
     fn runs(&self, study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
@@ -113,11 +121,25 @@ impl Compute for Plainly<'_> {
         work: impl FnOnce(Progress<'_>) -> T,
     ) -> T {
         self.0.begins(name, n_steps);
-        work(&|steps| self.0.advanced(steps))
+        work(&|steps| told(self.0, steps))
     }
 
     fn warn(&self, warning: &Warning) {
         self.0.warned(warning);
+    }
+}
+
+/// Tells of steps, and asks whether to go on.
+pub(crate) fn told(observer: &dyn Observer, steps: u64) -> ControlFlow<()> {
+    observer.advanced(steps);
+    if observer.wants_to_stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// What kept a curve from being computed.
+pub(crate) fn not_curve(error: MsfError) -> Error {
+    match error {
+        MsfError::Dynamics(DynamicsError::Cancelled) => Error::Cancelled,
+        other => Error::Curve(other),
     }
 }
 
@@ -126,8 +148,7 @@ struct Watched<'a>(&'a dyn Observer);
 
 impl dynamics::Observer for Watched<'_> {
     fn advanced(&self, _replicas: &[usize], steps: u64) -> Next {
-        self.0.advanced(steps);
-        if self.0.wants_to_stop() { Next::Stop } else { Next::GoOn }
+        if told(self.0, steps).is_break() { Next::Stop } else { Next::GoOn }
     }
 
     fn finished(&self, _replica: usize, _outcome: &Outcome) {}

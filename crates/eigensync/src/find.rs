@@ -8,7 +8,7 @@ use msf::{CriticalCoupling, MasterStability, StableRegion};
 use rayon::prelude::*;
 use spectra::{RealModes, Spectrum};
 
-use crate::compute::Plainly;
+use crate::compute::{Plainly, not_curve, told};
 use crate::numbers::{four_digits, plain, two_digits};
 use crate::prediction::Known;
 use crate::synchrony::{Evidence, assumed_above};
@@ -43,9 +43,8 @@ pub fn find(study: &Study, observer: &dyn Observer) -> Result<Findings, Error> {
     let mut study = study;
     if study.msf.sigma.is_empty() {
         observer.begins("first look at the msf", Some(16 * FIRST_LOOK.steps()));
-        let advanced = |steps| observer.advanced(steps);
-        let to =
-            msf::reach(&study.node, &FIRST_LOOK, study.seed, &advanced).map_err(Error::Curve)?;
+        let advanced = |steps| told(observer, steps);
+        let to = msf::reach(&study.node, &FIRST_LOOK, study.seed, &advanced).map_err(not_curve)?;
         looked = study.clone();
         let sigma = |k: u32| to * f64::from(k) / f64::from(POINTS - 1);
         looked.msf.sigma = (0..POINTS).map(sigma).collect();
@@ -99,7 +98,9 @@ pub fn find_by<C: Compute>(
     let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
     let states = compute
         .stage("clusters", Some(n_states), |progress| {
-            let mut states = known.states(stable, study.rule, progress)?;
+            let mut states = known.states(stable, study.rule, &|n| {
+                let _ = progress(n);
+            })?;
             if stable.intervals.is_empty() {
                 known.end_where_the_look_began(&mut states, msf.sigma[0]);
             }
@@ -244,7 +245,7 @@ fn labels(
     let of = |state: &State| {
         let stretches = state.stretches(stretches);
         let labels = StateLabels::of(state, stretches, spectrum, matrix, rule, EQUITABLE);
-        progress(1);
+        let _ = progress(1);
         labels
     };
     cascade.par_iter().map(of).collect()

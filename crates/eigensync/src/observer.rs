@@ -19,7 +19,8 @@ pub trait Observer: Sync {
         let _ = warning;
     }
 
-    /// Whether to stop: asked between samples of a sweep and between stages.
+    /// Whether to stop: asked at every step that is told, and between stages. Only the dense solver,
+    /// which tells of none, is not stopped on the way.
     fn wants_to_stop(&self) -> bool {
         false
     }

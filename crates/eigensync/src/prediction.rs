@@ -4,7 +4,6 @@
 //! done so while ε < σ₂ / |λ_N|, and up to there the leading modes decide as ever.
 
 use clustering::{ClusterRule, ClusteringError, State, cascade_reported};
-use dynamics::Progress;
 use msf::{End, Interval, StableRegion};
 use spectra::Spectrum;
 
@@ -52,7 +51,7 @@ impl Known<'_> {
         &self,
         stable: &StableRegion,
         rule: ClusterRule,
-        progress: Progress<'_>,
+        progress: &dyn Fn(u64),
     ) -> Result<Vec<State>, ClusteringError> {
         let Some(top) = self.top(stable) else {
             return cascade_reported(self.spectrum, stable, rule, progress);

@@ -4,6 +4,7 @@
 mod sweep;
 
 use std::cell::RefCell;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use dynamics::lyapunov::Times;
@@ -68,7 +69,10 @@ impl Compute for Kept<'_> {
         }
         let started = Instant::now();
         let spectrum = plan.stages.told("spectrum", |tell| {
-            spectra::leading_modes_with(&study.matrix, request, &|advance| tell(&advanced(advance)))
+            spectra::leading_modes_with(&study.matrix, request, &|advance| {
+                tell(&advanced(advance));
+                ControlFlow::Continue(())
+            })
         });
         let spectrum = spectrum.map_err(Error::Spectrum)?;
         let bytes = 8.0 * spectrum.n_modes() as f64 * study.network.n_nodes() as f64;
@@ -99,7 +103,7 @@ impl Compute for Kept<'_> {
     ) -> T {
         match n_steps {
             Some(n_steps) => self.plan.stages.measured(name, n_steps, work),
-            None => self.plan.stages.unmeasured(name, || work(&|_| ())),
+            None => self.plan.stages.unmeasured(name, || work(dynamics::QUIET)),
         }
     }
 

@@ -45,7 +45,7 @@ pub fn of_msf(plan: &Plan) -> Trial {
     let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
     let node = &plan.node;
     let (seconds, exponents) =
-        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, &|_| ()));
+        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, dynamics::QUIET));
     let per_step = seconds / (16.0 * times.steps() as f64);
     Trial {
         seconds: per_step * plan.study.msf_steps() as f64,
@@ -126,7 +126,7 @@ impl<'a> Bench<'a> {
             instruction_set: self.plan.study.msf.instruction_set,
         };
         let replicas = &self.replicas;
-        let (seconds, runs) = timed(|| simulation.run(replicas, &|_| ()));
+        let (seconds, runs) = timed(|| simulation.run(replicas, dynamics::QUIET));
         let completed = |outcome: &Outcome| matches!(outcome, Outcome::Completed(_));
         let escaped = runs.map_or(true, |runs| runs.iter().any(|run| !completed(&run.outcome)));
         Trial { seconds, escaped }

@@ -6,6 +6,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SpectraError {
+    /// Whoever is told of progress wanted to stop.
+    #[error("the search for modes was stopped before its end")]
+    Cancelled,
     /// No modes were asked for.
     #[error("0 modes were asked for; a spectrum has at least one")]
     NoModes,

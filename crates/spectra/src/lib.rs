@@ -60,13 +60,14 @@ use graph::CouplingMatrix;
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
 /// allowed does not suffice.
 pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, SpectraError> {
-    leading_modes_with(w, request, &|_| ())
+    leading_modes_with(w, request, &|_| std::ops::ControlFlow::Continue(()))
 }
 
-/// The same as [`leading_modes`], telling on the way how far it has come.
+/// The same as [`leading_modes`], telling on the way how far it has come, and stopping where that is
+/// wanted; the dense solver and ARPACK tell of nothing.
 ///
 /// # Errors
-/// Those of [`leading_modes`].
+/// Those of [`leading_modes`], and [`SpectraError::Cancelled`].
 pub fn leading_modes_with(
     w: &CouplingMatrix,
     request: &Request,

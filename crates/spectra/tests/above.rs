@@ -183,8 +183,11 @@ fn progress_tells_products_and_modes_and_never_goes_back() {
     let w = CouplingMatrix::new(&grid(40), Normalization::Laplacian);
     let calls = std::sync::Mutex::new(Vec::new());
     let request = with(SolverChoice::Chebyshev, Modes::Leading(6));
-    let spectrum =
-        leading_modes_with(&w, &request, &|advance| calls.lock().unwrap().push(advance)).unwrap();
+    let spectrum = leading_modes_with(&w, &request, &|advance| {
+        calls.lock().unwrap().push(advance);
+        std::ops::ControlFlow::Continue(())
+    })
+    .unwrap();
     let calls = calls.into_inner().unwrap();
     assert!(calls.len() > 3 && calls.windows(2).all(|pair| pair[0].products < pair[1].products));
     let last = calls[calls.len() - 1];

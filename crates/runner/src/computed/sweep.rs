@@ -128,7 +128,7 @@ impl<'a> Following<'a> {
 
 impl Observer for Following<'_> {
     fn advanced(&self, replicas: &[usize], steps: u64) -> Next {
-        (self.progress)(steps);
+        let _ = (self.progress)(steps);
         let Batch { samples, looked } = &self.batches[replicas[0]];
         if signals::is_stopping() {
             // One that has just begun has nothing to leave.
@@ -169,7 +169,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let journal = Journal::open(folder.path(), "tiny", false).unwrap();
         let keys = (0..3).map(|k| Key::of(Kind::Replica, &k)).collect();
-        let mut following = Following::new(&journal, keys, &|_| ());
+        let mut following = Following::new(&journal, keys, dynamics::QUIET);
         let snapshots = |following: &Following<'_>, batch: &[usize]| {
             let samples = 0..10 * BETWEEN_LOOKS;
             samples.filter(|_| following.advanced(batch, 10) == Next::Snapshot).count()

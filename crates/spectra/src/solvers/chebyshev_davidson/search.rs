@@ -100,7 +100,7 @@ impl<'a> Search<'a> {
                 self.plan.residual_bound,
             );
             self.plan.wanted.check(&self.settled, self.plan.grouping)?;
-            self.report(&ritz);
+            self.report(&ritz)?;
             if let Some(n_modes) = self.complete(&ritz, &front)
                 && self.all_converged(&ritz, n_modes)?
             {
@@ -334,12 +334,14 @@ impl<'a> Search<'a> {
         self.plan.exhausted(self.settled.len(), self.products)
     }
 
-    fn report(&self, ritz: &Eigen) {
-        (self.progress)(Advance {
+    /// Tells how far it has come, and stops where that is wanted.
+    fn report(&self, ritz: &Eigen) -> Result<(), SpectraError> {
+        let advance = Advance {
             products: self.products,
             converged: self.settled.len(),
             wanted: self.plan.wanted.known(&ritz.values, self.plan.grouping),
-        });
+        };
+        if (self.progress)(advance).is_break() { Err(SpectraError::Cancelled) } else { Ok(()) }
     }
 
     /// The leading vectors of a basis that consists of Ritz vectors.
