@@ -21,7 +21,7 @@
 
 use std::ops::Range;
 
-use spectra::Spectrum;
+use spectra::{RealModes, Spectrum};
 
 use crate::cells::Points;
 use crate::exact::clusters_of_rows;
@@ -64,6 +64,11 @@ impl EigenvectorDistance {
     /// # Panics
     /// If the parts of the spectrum differ in length.
     pub fn new(spectrum: &Spectrum, modes: &[usize]) -> Result<Self, ClusteringError> {
+        Self::of(&spectrum.real_modes(), modes)
+    }
+
+    /// The same of a spectrum that lies mode by mode.
+    pub(crate) fn of(spectrum: &RealModes<'_>, modes: &[usize]) -> Result<Self, ClusteringError> {
         check_shapes(spectrum);
         check_synchronous_mode(spectrum)?;
         let chosen = chosen_eigenspaces(spectrum, modes)?;
@@ -203,7 +208,7 @@ pub(crate) fn check_threshold(threshold: f64) -> Result<(), ClusteringError> {
     }
 }
 
-pub(crate) fn check_shapes(spectrum: &Spectrum) {
+pub(crate) fn check_shapes(spectrum: &RealModes<'_>) {
     let n_modes = spectrum.eigenvalues.len();
     let (n_vectors, n_residuals) = (spectrum.eigenvectors.len(), spectrum.residuals.len());
     assert!(
@@ -223,9 +228,9 @@ pub(crate) fn check_shapes(spectrum: &Spectrum) {
 }
 
 /// The vector of equal components is an eigenvector of eigenvalue 0, the largest there is.
-pub(crate) fn check_synchronous_mode(spectrum: &Spectrum) -> Result<(), ClusteringError> {
+pub(crate) fn check_synchronous_mode(spectrum: &RealModes<'_>) -> Result<(), ClusteringError> {
     let n_nodes = spectrum.eigenvectors[0].len() as f64;
-    let share = |v: &Vec<f64>| v.iter().sum::<f64>().powi(2) / n_nodes;
+    let share = |v: &&[f64]| v.iter().sum::<f64>().powi(2) / n_nodes;
     let overlap = spectrum.eigenvectors[spectrum.eigenspaces[0].clone()].iter().map(share).sum();
     if (1.0 - CONSTANT_SHARE..=1.0 + CONSTANT_SHARE).contains(&overlap) {
         Ok(())
@@ -236,7 +241,7 @@ pub(crate) fn check_synchronous_mode(spectrum: &Spectrum) -> Result<(), Clusteri
 
 /// The eigenspaces, by number, whose transverse modes are those given.
 pub(crate) fn chosen_eigenspaces(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     modes: &[usize],
 ) -> Result<Vec<usize>, ClusteringError> {
     let n_modes = spectrum.eigenvalues.len();
@@ -262,7 +267,10 @@ pub(crate) fn chosen_eigenspaces(
 }
 
 /// The components of these modes are numbers.
-pub(crate) fn check_finite(spectrum: &Spectrum, modes: &[usize]) -> Result<(), ClusteringError> {
+pub(crate) fn check_finite(
+    spectrum: &RealModes<'_>,
+    modes: &[usize],
+) -> Result<(), ClusteringError> {
     for &mode in modes {
         let components = &spectrum.eigenvectors[mode];
         if let Some(node) = components.iter().position(|component| !component.is_finite()) {
@@ -274,12 +282,12 @@ pub(crate) fn check_finite(spectrum: &Spectrum, modes: &[usize]) -> Result<(), C
 
 /// The components of these nodes in the modes of these eigenspaces, node by node.
 pub(crate) fn interleaved(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     spaces: &[Range<usize>],
     nodes: &[usize],
 ) -> Vec<f64> {
-    let vectors: Vec<&Vec<f64>> =
-        spaces.iter().flat_map(|space| &spectrum.eigenvectors[space.clone()]).collect();
+    let vectors: Vec<&[f64]> =
+        spaces.iter().flat_map(|space| &spectrum.eigenvectors[space.clone()]).copied().collect();
     let width = vectors.len();
     let mut rows = vec![0.0; nodes.len() * width];
     for (some, nodes) in nodes.chunks(COPIED_NODES).enumerate() {

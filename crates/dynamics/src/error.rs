@@ -38,8 +38,8 @@ pub enum DynamicsError {
         /// Model time at which it was seen.
         time: f64,
     },
-    /// The observer wanted the simulation to stop.
-    #[error("the simulation was stopped before its end")]
+    /// The observer, or whoever is told of progress, wanted to stop.
+    #[error("the work was stopped before its end")]
     Cancelled,
 }
 

@@ -56,11 +56,16 @@ pub use slow_time::slow_time;
 pub use stage::Stage;
 pub use statistics::{BLOCKS, Estimate};
 
+use std::ops::ControlFlow;
+
 /// Sparse matrix in compressed-row form with 32-bit column indices.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
 
-/// Called with the number of steps done since the last call, from any thread.
-pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
+/// Called with the number of steps done since the last call, from any thread; says whether to go on.
+pub type Progress<'a> = &'a (dyn Fn(u64) -> ControlFlow<()> + Sync);
+
+/// Nobody is told, and nothing is stopped.
+pub const QUIET: Progress<'static> = &|_| ControlFlow::Continue(());
 
 /// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
 /// below 10³, in the units of their equations.

@@ -10,6 +10,8 @@
 mod master_equation;
 mod tiles;
 
+use std::ops::ControlFlow;
+
 use rayon::prelude::*;
 
 pub(crate) use master_equation::fused;
@@ -18,7 +20,7 @@ pub(crate) use tiles::by_flow;
 
 use crate::error::{check_times, whole};
 use crate::statistics::BLOCKS;
-use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress};
+use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress, QUIET};
 
 /// The most tangents advanced together.
 const MAX_LANES: usize = 16;
@@ -132,7 +134,7 @@ pub fn spectrum(
 ) -> Result<Vec<Estimate>, DynamicsError> {
     let plan = Plan::new(times)?;
     let mut tiles = Tiles::axes(dynamics, InstructionSet::best(), seed);
-    Ok(estimates(&plan.block_means(&mut tiles, |_| ())?, dynamics.start().len()))
+    Ok(estimates(&plan.block_means(&mut tiles, QUIET)?, dynamics.start().len()))
 }
 
 impl Times {
@@ -178,7 +180,7 @@ impl Plan {
     fn block_means<const L: usize>(
         &self,
         tangents: &mut impl Growing<L>,
-        progress: impl Fn(u64),
+        progress: impl Fn(u64) -> ControlFlow<()>,
     ) -> Result<Vec<[f64; L]>, DynamicsError> {
         let in_blocks = self.intervals_per_block * BLOCKS as u64;
         let mut blocks = Vec::with_capacity(BLOCKS);
@@ -191,7 +193,9 @@ impl Plan {
             for (sum, log) in growth.iter_mut().zip(tangents.renormalise()) {
                 *sum += log;
             }
-            progress(self.steps_per_interval);
+            if progress(self.steps_per_interval).is_break() {
+                return Err(DynamicsError::Cancelled);
+            }
             let Some(averaged) = interval.checked_sub(self.transient_intervals) else { continue };
             if averaged.is_multiple_of(self.intervals_per_block) {
                 let time = self.intervals_per_block as f64 * self.interval();
@@ -236,7 +240,6 @@ mod tests {
     use crate::{Lorenz, Model, Rossler};
 
     const TIMES: Times = Times { step: 0.01, transient: 100.0, average: 5000.0, renormalise: 0.5 };
-    const QUIET: Progress<'static> = &|_| ();
 
     fn within(estimate: Estimate, expected: f64, slack: f64) {
         let allowed = 4.0 * estimate.standard_error + slack;

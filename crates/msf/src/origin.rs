@@ -81,13 +81,15 @@ fn nearer<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Refinement;
+    use crate::{Advance, Refinement};
 
     fn of(state: Isolated, truth: fn(f64) -> f64) -> (f64, Option<End>) {
         let refinement = Refinement::default();
         let exponent = |&sigma: &f64| Estimate { mean: truth(sigma), standard_error: 1e-5 };
         let measure = |sigmas: &[f64], _| Ok(sigmas.iter().map(exponent).collect());
-        let mut finder = Finder { refinement: &refinement, floor: 1e-5, measure, split: None };
+        let advance: &dyn Fn(Advance) = &|_| ();
+        let mut finder =
+            Finder { refinement: &refinement, advance, floor: 1e-5, measure, split: None };
         let first = Signed { sigma: 1.0, negative: truth(1.0) < 0.0 };
         let (certain, end) = with(state, vec![first], &mut finder).unwrap();
         (certain[0].sigma, end)

@@ -8,13 +8,15 @@ use std::time::Instant;
 
 use comfy_table::Table as TextTable;
 use comfy_table::presets::NOTHING;
+use eigensync::numbers::{four_digits, two_digits, with_error};
+use eigensync::{Warning, Warnings};
 use msf::{MasterStability, Zero};
 use serde::Serialize;
 use serde_json::{Value, json};
 use toml::toml;
 
-use crate::computed::Curves;
 use crate::drawing;
+use crate::findings;
 use crate::journal::Journal;
 use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
 use crate::output::{document, say, shown, tell};
@@ -26,9 +28,7 @@ use crate::progress::Stages;
 use crate::provenance::Provenance;
 use crate::record::{LAYOUT, MsfRecord, msf_record};
 use crate::results::write_msf;
-use crate::stability::{self, with_error};
-use crate::table::{four_digits, two_digits};
-use crate::warning::{Warning, Warnings};
+use crate::warning;
 
 /// Most rows of the curve that are shown.
 const ROWS: usize = 17;
@@ -87,15 +87,11 @@ pub fn run(args: &Args) -> Result<()> {
     let mut place = Some(place);
     let (plan, msf, written, json) = journal.until(|| {
         let plan = plan(args, &id, &journal)?;
-        let mut warnings = Warnings::new(&id);
-        plan.doubts.iter().for_each(|doubt| warnings.add(doubt.about, &doubt.message[..]));
-        let msf = Curves::default().of(&plan, &journal)?;
-        journal.tell_taken();
-        stability::warn(&plan, &msf, &mut warnings);
+        let (msf, mut warnings) = findings::curve(&plan, &journal)?;
         let place = place.take().expect("results are written once");
         let folder = place.folder()?;
         write_msf(&folder, &msf)?;
-        draw(&folder, &plan, &msf, &mut warnings);
+        warnings.extend(draw(&folder, &plan, &msf));
         let took = (started.elapsed(), &plan.stages.took()[..]);
         let summary = Summary {
             layout: LAYOUT,
@@ -104,7 +100,7 @@ pub fn run(args: &Args) -> Result<()> {
             experiment: experiment(&plan),
             shortened: plan.shortened,
             msf: msf_record(&msf),
-            warnings: warnings.into_list(),
+            warnings: warnings.iter().map(warning::kept).collect(),
             provenance: Provenance::new(&plan, journal.taken(), took, place.origin()),
         };
         let json = serde_json::to_string_pretty(&summary)
@@ -175,7 +171,9 @@ fn experiment(plan: &Plan) -> Value {
 }
 
 /// The figure; what goes wrong with it costs no results.
-fn draw(folder: &Folder, plan: &Plan, msf: &MasterStability, warnings: &mut Warnings) {
+fn draw(folder: &Folder, plan: &Plan, msf: &MasterStability) -> Vec<Warning> {
+    let tell = |warning: &Warning| warning::say(&plan.id, warning);
+    let mut warnings = Warnings::new(&tell);
     for (name, drawn) in drawing::curve_alone(&plan.experiment.title, msf) {
         let written = drawn
             .and_then(|bytes| folder.write(name, bytes).map_err(|problem| problem.to_string()));
@@ -183,6 +181,7 @@ fn draw(folder: &Folder, plan: &Plan, msf: &MasterStability, warnings: &mut Warn
             warnings.add("figure", format!("{name} is missing: {reason}"));
         }
     }
+    warnings.into_list()
 }
 
 fn said(plan: &Plan, msf: &MasterStability) -> String {

@@ -13,11 +13,10 @@ pub use room::foreseen;
 
 use msf::MasterStability;
 
-use crate::findings::Findings;
-use crate::plan::{Plan, Sweep};
-use crate::simulated::{OverSeeds, Simulated};
+use crate::plan::Plan;
 use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
-use crate::table::three_digits;
+use eigensync::numbers::three_digits;
+use eigensync::{Findings, OverSeeds, Simulated, Sweep};
 use figures::{
     Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
     NetworkPanel, Node, Panel, Placement, Scale, Series, Shade, Spread, SpreadStyle, Tone,
@@ -71,7 +70,7 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
         content,
     };
     let mut panels = vec![left(0, 1, network_or_spectrum(plan, findings))];
-    let lines = match (&plan.sweep, &findings.simulated) {
+    let lines = match (&plan.study.sweep, &findings.simulated) {
         (Some(sweep), Some(simulated)) => Some(errors(plan, sweep, simulated, findings)),
         _ => None,
     };
@@ -99,7 +98,7 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
 
 /// The network coloured by clusters or, where it is too large to be seen, its leading eigenvalues.
 fn network_or_spectrum(plan: &Plan, findings: &Findings) -> Content {
-    if plan.network.n_nodes() > DRAWN_NODES {
+    if plan.study.network.n_nodes() > DRAWN_NODES {
         return Content::Lines(spectrum(findings));
     }
     Content::Network(network(plan, &shown_clusters(plan, findings)))
@@ -107,13 +106,13 @@ fn network_or_spectrum(plan: &Plan, findings: &Findings) -> Content {
 
 /// λ_k against k.
 fn spectrum(findings: &Findings) -> LinePanel {
-    let eigenvalues = &findings.spectrum.eigenvalues;
+    let eigenvalues = findings.spectrum.real_eigenvalues();
     LinePanel {
         x_label: Label::text("mode ").with_math("k"),
         y_label: Label::math("λ").subscript("k"),
         series: vec![Series {
             x: (1..=eigenvalues.len()).map(|k| k as f64).collect(),
-            y: eigenvalues.clone(),
+            y: eigenvalues,
             ..Series::default()
         }],
         ..LinePanel::default()
@@ -123,7 +122,7 @@ fn spectrum(findings: &Findings) -> LinePanel {
 /// The clusters that colour the network: those of the experiment, else of the first predicted state
 /// that has some beside global synchronisation.
 fn shown_clusters(plan: &Plan, findings: &Findings) -> Vec<Vec<usize>> {
-    let own = plan.sweep.as_ref().map(|sweep| sweep.observables.clusters.clone());
+    let own = plan.study.sweep.as_ref().map(|sweep| sweep.observables.clusters.clone());
     own.filter(|clusters| !clusters.is_empty()).unwrap_or_else(|| {
         let some = findings.cascade.iter().filter(|state| state.clusters.n_clusters() > 1);
         let clusters = some.map(|state| state.clusters.nontrivial());
@@ -132,7 +131,7 @@ fn shown_clusters(plan: &Plan, findings: &Findings) -> Vec<Vec<usize>> {
 }
 
 fn network(plan: &Plan, clusters: &[Vec<usize>]) -> NetworkPanel {
-    let network = &plan.network;
+    let network = &plan.study.network;
     let cluster = |node: usize| clusters.iter().position(|cluster| cluster.contains(&node));
     let nodes = network.labels().iter().enumerate();
     let links = network.adjacency().outer_iterator().enumerate().flat_map(|(from, row)| {
@@ -166,7 +165,7 @@ fn msf(msf: &MasterStability) -> LinePanel {
 
 /// δx_i to the reference node or δx^c_m within clusters, whichever the experiment asks for.
 fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings) -> LinePanel {
-    let labels = plan.network.labels();
+    let labels = plan.study.network.labels();
     let observables = &sweep.observables;
     let nodes: Vec<usize> =
         (0..labels.len()).filter(|node| Some(*node) != observables.reference).collect();
@@ -270,7 +269,7 @@ fn curve(
     style: usize,
     at: impl Fn(usize) -> Option<OverSeeds>,
 ) -> Series {
-    let x = plan.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.epsilon.clone());
+    let x = plan.study.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.epsilon.clone());
     let points: Vec<Option<OverSeeds>> = (0..x.len()).map(at).collect();
     // Where every seed escaped the curve has a gap.
     let of = |value: &dyn Fn(&OverSeeds) -> f64| {
@@ -297,7 +296,8 @@ fn curve(
 fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
     let wanted =
         |mode: usize| plan.figure().mark_modes.as_ref().is_none_or(|modes| modes.contains(&mode));
-    let leads = |mode: usize| findings.spectrum.eigenspaces.iter().any(|e| e.start + 1 == mode);
+    let eigenspaces = findings.spectrum.real_modes().eigenspaces;
+    let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
     let markers = findings
         .critical
         .iter()

@@ -5,7 +5,6 @@
 //! `drawing`, `report`), `compare` holds it against the golden outputs, `closing` says how it ended. Only this crate knows paths, clocks
 //! and terminals; it knows no numerical method.
 
-mod agreement;
 mod cascade_files;
 mod check;
 mod claims;
@@ -14,7 +13,6 @@ mod closing;
 mod compare;
 mod computed;
 mod curve;
-mod doubts;
 mod drawing;
 mod files;
 mod findings;
@@ -29,7 +27,6 @@ mod overview;
 mod place;
 mod plan;
 mod predict;
-mod prediction;
 mod problem;
 mod progress;
 mod provenance;
@@ -38,11 +35,7 @@ mod report;
 mod results;
 mod run;
 mod signals;
-mod simulated;
 mod spec;
-mod stability;
-mod step_effect;
-mod synchrony;
 mod table;
 mod trial;
 mod warning;

@@ -4,11 +4,11 @@
 use clustering::CascadeTree;
 
 use crate::cascade_files::numbered;
-use crate::findings::Findings;
 use crate::place::Folder;
 use crate::plan::Plan;
 use crate::problem::Result;
 use crate::results::number;
+use eigensync::Findings;
 
 /// With more rows the table is left out: `clusters.csv` says the same in one row a node.
 const MOST_ROWS: usize = 2_000_000;
@@ -17,7 +17,7 @@ const COLUMNS: [&str; 5] = ["state", "epsilon_from", "epsilon_to", "node", "clus
 
 /// Writes the table, unless it has too many rows.
 pub fn write(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
-    let labels = plan.network.labels();
+    let labels = plan.study.network.labels();
     if labels.len().saturating_mul(findings.cascade.len()) > MOST_ROWS {
         return Ok(());
     }

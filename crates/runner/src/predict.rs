@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use clap::ValueEnum;
+use eigensync::Wanted;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
@@ -18,7 +19,7 @@ use crate::place::{self, Place, STANDARD_INPUT};
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
-use crate::spec::{Format, MatrixKind, ModesSpec};
+use crate::spec::{Format, MatrixKind};
 use crate::{findings, load, overview, results};
 
 /// Longest network from standard input, in bytes.
@@ -41,7 +42,7 @@ pub struct Args {
     /// them becomes unstable. `auto` computes all where the stable set has an upper end and the network
     /// has up to 5000 nodes, else 20 and a zero mode for each further component
     #[arg(long, value_name = "M", default_value = "auto", value_parser = modes)]
-    modes: ModesSpec,
+    modes: Wanted,
     /// Instead of a number of modes: all that are unstable at this coupling strength, so that the
     /// cascade reaches down to it
     #[arg(long, value_name = "EPSILON", conflicts_with = "modes")]
@@ -149,7 +150,7 @@ pub fn run(args: &Args) -> Result<()> {
         let found = findings::find(&plan, &mut Curves::default(), &journal)
             .map_err(|problem| problem.renamed(&plan.file, &input.named))?;
         let place = place.take().expect("results are written once");
-        let took = || started.elapsed();
+        let took = (|| started.elapsed(), journal.taken());
         let written = results::write(&plan, &found, Vec::new(), None, took, place)?;
         Ok((plan, found, written.place))
     })?;
@@ -199,11 +200,11 @@ fn plan(
 }
 
 /// A number of modes, or the word for one.
-fn modes(text: &str) -> std::result::Result<ModesSpec, String> {
+fn modes(text: &str) -> std::result::Result<Wanted, String> {
     match (text, text.parse::<u64>()) {
-        ("all", _) => Ok(ModesSpec::All),
-        ("auto", _) => Ok(ModesSpec::Auto),
-        (_, Ok(modes)) if modes > 0 => Ok(ModesSpec::Leading(modes)),
+        ("all", _) => Ok(Wanted::All),
+        ("auto", _) => Ok(Wanted::Auto),
+        (_, Ok(modes)) if modes > 0 => Ok(Wanted::Leading(modes)),
         _ => Err("expected `all`, `auto` or a number above zero".into()),
     }
 }
@@ -212,8 +213,8 @@ fn spectrum(args: &Args) -> Value {
     let modes = match args.unstable_at {
         Some(epsilon) => table([("unstable_at", epsilon.into())]),
         None => match args.modes {
-            ModesSpec::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
-            ModesSpec::All => "all".into(),
+            Wanted::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
+            Wanted::All => "all".into(),
             _ => "auto".into(),
         },
     };

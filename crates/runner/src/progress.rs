@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::io::{Read, Seek, SeekFrom};
+use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -186,11 +187,12 @@ impl Stages {
 }
 
 /// Steps that were done. A stage that turns out longer than planned stretches its bar.
-fn advance(bar: &ProgressBar, done: u64) {
+fn advance(bar: &ProgressBar, done: u64) -> ControlFlow<()> {
     if bar.position() + done > bar.length().unwrap_or(u64::MAX) {
         bar.inc_length(done);
     }
     bar.inc(done);
+    ControlFlow::Continue(())
 }
 
 /// A source that reports the bytes taken from it.
@@ -202,7 +204,7 @@ pub struct Watched<'a, R> {
 impl<R: Read> Read for Watched<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         let n_bytes = self.source.read(buffer)?;
-        (self.progress)(n_bytes as u64);
+        let _ = (self.progress)(n_bytes as u64);
         Ok(n_bytes)
     }
 }

@@ -58,7 +58,7 @@ impl Provenance {
             seed: plan.experiment.seed,
             plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),
             host_features: host_features(),
-            instruction_set: plan.msf.instruction_set.name(),
+            instruction_set: plan.study.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
             taken_over,
             wall_time_s: seconds(took),

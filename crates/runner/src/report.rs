@@ -6,12 +6,12 @@ use std::fmt::Write;
 
 use crate::claims::Claim;
 use crate::compare::Comparison;
-use crate::findings::Findings;
 use crate::output::{one_line, printable};
 use crate::overview;
 use crate::plan::Plan;
 use crate::table;
-use crate::warning::Warning;
+use eigensync::Findings;
+use eigensync::Warning;
 
 /// Its name in the results folder.
 pub const REPORT: &str = "report.txt";

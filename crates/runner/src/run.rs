@@ -20,7 +20,6 @@ use crate::plan::{self, Plan};
 use crate::problem::Result;
 use crate::progress;
 use crate::results;
-use crate::step_effect;
 
 /// How experiments are run.
 pub struct Options {
@@ -37,7 +36,8 @@ pub fn run(files: &[PathBuf], options: &Options) -> Result<bool> {
     let started = Instant::now();
     let (mut plans, left_out) = plan::all(files, options.quick)?;
     for plan in &mut plans {
-        plan.msf.instruction_set = options.instruction_set.unwrap_or(plan.msf.instruction_set);
+        plan.study.msf.instruction_set =
+            options.instruction_set.unwrap_or(plan.study.msf.instruction_set);
     }
     let goldens = plans
         .iter()
@@ -71,7 +71,7 @@ fn one(
     golden: Option<&Value>,
     curves: &mut Curves,
     fresh: bool,
-) -> Result<(Outcome, findings::Findings, Duration)> {
+) -> Result<(Outcome, eigensync::Findings, Duration)> {
     let started = Instant::now();
     let planned = plan.stages.total();
     let took = || planned + started.elapsed();
@@ -82,10 +82,11 @@ fn one(
         let found = findings::find(plan, curves, &journal)?;
         let claims = claims::judge(plan, &found)?;
         let place = place.take().expect("results are written once");
-        let written = results::write(plan, &found, claims.clone(), golden, took, place)?;
+        let written =
+            results::write(plan, &found, claims.clone(), golden, (took, journal.taken()), place)?;
         Ok((found, claims, written))
     })?;
-    if let Some(looked) = step_effect::looked_at(&found.step_effects) {
+    if let Some(looked) = eigensync::step_effects_looked_at(&found.step_effects) {
         tell!("{}: {looked}", plan.id);
     }
     let results::Written { place, comparison } = written;
@@ -96,10 +97,11 @@ fn one(
 /// ask for is computed for the first.
 fn work(plans: &[Plan]) -> Vec<f64> {
     let of = |(position, plan): (usize, &Plan)| {
-        let is_shared = plans[..position].iter().any(|p| p.node == plan.node && p.msf == plan.msf);
-        let curve = if is_shared { 0.0 } else { plan.msf_steps() as f64 };
-        let nodes = plan.network.n_nodes() as f64;
-        curve + plan.sweep.as_ref().map_or(0.0, |sweep| sweep.steps() as f64 * nodes)
+        let is_shared =
+            plans[..position].iter().any(|p| p.node == plan.node && p.study.msf == plan.study.msf);
+        let curve = if is_shared { 0.0 } else { plan.study.msf_steps() as f64 };
+        let nodes = plan.study.network.n_nodes() as f64;
+        curve + plan.study.sweep.as_ref().map_or(0.0, |sweep| sweep.steps() as f64 * nodes)
     };
     plans.iter().enumerate().map(of).collect()
 }

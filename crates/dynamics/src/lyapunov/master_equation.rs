@@ -122,9 +122,8 @@ where
             tangent: Lanes([1.0; L]),
         });
         let count = tangents.len();
-        let blocks = plan.block_means(&mut Growth { equation, state }, |steps| {
-            progress(steps * count as u64);
-        })?;
+        let blocks = plan
+            .block_means(&mut Growth { equation, state }, |steps| progress(steps * count as u64))?;
         Ok(estimates(&blocks, count))
     }
 }

@@ -1,8 +1,8 @@
 //! The predicted states as plain data for their figure: which cluster came from which.
 
 use clustering::Partition;
+use eigensync::Findings;
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 use figures::{CascadeCluster, CascadePanel, CascadeState};
 
@@ -15,7 +15,7 @@ pub fn panel(plan: &Plan, findings: &Findings) -> CascadePanel {
         clusters: clusters(plan, &state.clusters, before),
     };
     CascadePanel {
-        n_nodes: plan.network.n_nodes(),
+        n_nodes: plan.study.network.n_nodes(),
         states: states.iter().zip(before).map(state).collect(),
     }
 }
@@ -51,7 +51,7 @@ fn places(partition: &Partition) -> Vec<Option<usize>> {
 
 /// The group that a cluster is, or its first and last node where they follow one another.
 fn label(plan: &Plan, nodes: &[usize]) -> String {
-    let network = &plan.network;
+    let network = &plan.study.network;
     if let Some(group) = network.groups().iter().find(|group| group.nodes == nodes) {
         return group.name.clone();
     }

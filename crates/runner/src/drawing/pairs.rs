@@ -2,12 +2,10 @@
 //! (the paper's Figs. 2 to 4), or nodes in space coloured by clusters of regions (its Fig. 5).
 
 use clustering::{Correlation, EigenvectorDistance, Partition, maximum_overlap};
+use eigensync::numbers::plain;
+use eigensync::{Agreement, Findings, Predicted, Regions, Simulated};
 
-use crate::agreement::{Agreement, Predicted, Regions};
-use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::problem::plain;
-use crate::simulated::Simulated;
 use figures::{
     Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
     components_panel, pairs_figure,
@@ -18,10 +16,11 @@ const DEFAULT_MODES: std::ops::RangeInclusive<usize> = 2..=4;
 
 /// The network, its eigenvectors, and for each ε (the largest first) both matrices.
 pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
+    let vectors = findings.spectrum.real_modes().eigenvectors;
     let modes: Vec<Mode> = shown_modes(plan, findings)
         .into_iter()
         .filter_map(|mode| {
-            let components = findings.spectrum.eigenvectors.get(mode - 1)?.clone();
+            let components = vectors.get(mode - 1)?.to_vec();
             Some(Mode { label: Label::math("v").subscript(&mode.to_string()), components })
         })
         .collect();
@@ -44,7 +43,7 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
 
 /// The network coloured by its groups, which keep their names.
 fn grouped_network(plan: &Plan) -> NetworkPanel {
-    let groups = plan.network.groups();
+    let groups = plan.study.network.groups();
     let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
     NetworkPanel {
         cluster_labels: groups.iter().map(|group| Label::text(group.name.as_str())).collect(),
@@ -54,7 +53,7 @@ fn grouped_network(plan: &Plan) -> NetworkPanel {
 
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
 pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
-    let positions = plan.network.positions().unwrap_or_default();
+    let positions = plan.study.network.positions().unwrap_or_default();
     let panel = |position: usize, clusters: Vec<Option<usize>>, grey: &str| {
         Content::Positions(PositionsPanel {
             title: epsilon(simulated.epsilon[position]),
@@ -144,7 +143,7 @@ fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
 
 /// The modes asked for, else those of [`DEFAULT_MODES`] that were computed, or the only one.
 fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
-    let computed = findings.spectrum.eigenvectors.len();
+    let computed = findings.spectrum.n_modes();
     plan.figure().eigenvectors.clone().unwrap_or_else(|| {
         let modes: Vec<usize> = DEFAULT_MODES.filter(|&mode| mode <= computed).collect();
         if modes.is_empty() { vec![1] } else { modes }
@@ -158,7 +157,7 @@ fn predicted(
     simulated: &Simulated,
     position: usize,
 ) -> HeatMapPanel {
-    let n_nodes = plan.network.n_nodes();
+    let n_nodes = plan.study.network.n_nodes();
     let uniform = |value: f64| vec![value; n_nodes * n_nodes];
     let of = findings.agreement.get(position).map_or(&Predicted::NotReached, |a| &a.predicted);
     let (values, word) = match of {
@@ -197,7 +196,7 @@ fn errors(
     let correlation = agreement.and_then(|agreement| agreement.correlation);
     HeatMapPanel {
         title: error_title(simulated, correlation, position),
-        n_nodes: plan.network.n_nodes(),
+        n_nodes: plan.study.network.n_nodes(),
         values: error_matrix(plan, simulated, position),
         range: None,
         bar_label: Label::math("δx").subscript("ij"),
@@ -222,7 +221,7 @@ fn error_title(simulated: &Simulated, correlation: Option<Correlation>, position
 
 /// δx_ij row by row; NaN where every run escaped.
 pub fn error_matrix(plan: &Plan, simulated: &Simulated, position: usize) -> Vec<f64> {
-    let n_nodes = plan.network.n_nodes();
+    let n_nodes = plan.study.network.n_nodes();
     let pairs = simulated.mean_pairs(position);
     let error = |i, j| pairs.as_ref().map_or(f64::NAN, |pairs| pairs.of(i, j));
     (0..n_nodes).flat_map(|i| (0..n_nodes).map(move |j| (i, j))).map(|(i, j)| error(i, j)).collect()
@@ -230,7 +229,7 @@ pub fn error_matrix(plan: &Plan, simulated: &Simulated, position: usize) -> Vec<
 
 /// The groups whose nodes are consecutive; others have no place on an axis.
 fn groups(plan: &Plan) -> Vec<Group> {
-    let groups = plan.network.groups().iter().filter_map(|group| {
+    let groups = plan.study.network.groups().iter().filter_map(|group| {
         let (first, last) = (*group.nodes.first()?, *group.nodes.last()?);
         let consecutive = last - first + 1 == group.nodes.len();
         consecutive

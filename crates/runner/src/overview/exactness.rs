@@ -1,15 +1,15 @@
 //! What `exact` means in a prediction, how far the clusters that are not exact are from it, which exact
 //! ones they hold, and what is there by chance.
 
+use eigensync::numbers::{four_digits, two_digits};
+use eigensync::{EQUITABLE, Findings};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
 use super::{SHOWN, grouped};
-use crate::findings::{EQUITABLE, Findings};
 use crate::output::one_line;
 use crate::plan::Plan;
-use crate::table::{four_digits, two_digits};
 
 /// Nodes shown of one cluster, and characters of the name of one.
 const NODES: usize = 8;
@@ -38,7 +38,7 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
             ),
         );
     }
-    if let ClusterRule::Threshold(threshold) = plan.rule {
+    if let ClusterRule::Threshold(threshold) = plan.study.rule {
         text.push_str(&beyond(threshold, labels()));
     }
     text.push_str(&parts(plan, findings));
@@ -126,7 +126,7 @@ fn below(state: &State) -> String {
 
 pub(super) fn named(plan: &Plan, nodes: &[usize]) -> String {
     let shown = nodes.iter().take(NODES).map(|&node| {
-        let label = one_line(&plan.network.labels()[node]);
+        let label = one_line(&plan.study.network.labels()[node]);
         match label.char_indices().nth(LABEL) {
             Some((end, _)) => format!("{}…", &label[..end]),
             None => label.into_owned(),

@@ -7,11 +7,11 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 
 use super::{SHOWN, exactness::named};
-use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::simulated::{End, Known, Seen, Simulated};
-use crate::stability::with_error;
-use crate::table::{four_digits, two_digits};
+use eigensync::Findings;
+use eigensync::numbers::with_error;
+use eigensync::numbers::{four_digits, two_digits};
+use eigensync::{End, Known, Seen, Simulated};
 
 /// A cluster as it was predicted and seen.
 struct Row {
@@ -23,7 +23,7 @@ struct Row {
 
 /// The rows of all clusters, as far as there is room; none without a sweep that observed all pairs.
 pub fn of(plan: &Plan, findings: &Findings) -> Option<String> {
-    plan.sweep.as_ref().filter(|sweep| sweep.observables.pairs)?;
+    plan.study.sweep.as_ref().filter(|sweep| sweep.observables.pairs)?;
     let simulated = findings.simulated.as_ref()?;
     let mut clusters: Vec<&TreeCluster> = findings
         .trees

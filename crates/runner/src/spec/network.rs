@@ -4,10 +4,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use eigensync::{Bound, RegionBounds};
+
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Bound, Name};
+use super::Name;
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -215,4 +217,12 @@ pub struct RegionsSpec {
     /// The same for δx in the simulation, in the units of the component.
     pub error_within: Bound,
     pub error_between: Bound,
+}
+
+impl RegionsSpec {
+    /// The same as the library knows it.
+    pub fn bounds(&self) -> RegionBounds {
+        let Self { distance_within, distance_between, error_within, error_between } = *self;
+        RegionBounds { distance_within, distance_between, error_within, error_between }
+    }
 }
