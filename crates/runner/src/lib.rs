@@ -14,6 +14,7 @@ mod computed;
 mod drawing;
 mod files;
 mod findings;
+mod hashes;
 mod journal;
 mod list;
 mod load;

@@ -10,6 +10,7 @@ use dynamics::{Errors, Estimate};
 use crate::cascade_files;
 use crate::claims::Claim;
 use crate::drawing;
+use crate::files::number;
 use crate::journal::Held;
 use crate::place::{Folder, Place};
 use crate::plan::Plan;
@@ -162,9 +163,4 @@ fn npy(n_nodes: usize, values: &[f64]) -> Vec<u8> {
     writer.extend(values).expect("memory takes every byte");
     writer.finish().expect("as many values as the shape says");
     bytes
-}
-
-/// The shortest text that reads back as the same number.
-pub fn number(value: f64) -> String {
-    format!("{value:?}")
 }
