@@ -15,9 +15,9 @@ use msf::StableRegion;
 use spectra::{RealModes, Spectrum};
 
 use crate::coincidences::Coincidences;
-use crate::distance::{check_finite, check_shapes, check_synchronous_mode, transverse};
 use crate::exact::ExactClusters;
 use crate::linkage::clusters_of_each;
+use crate::modes::{check_finite, check_shapes, check_synchronous_mode, transverse};
 use crate::{ClusteringError, Partition};
 
 /// Couplings closer than this, relatively, are one: they differ by rounding.

@@ -21,9 +21,9 @@
 
 use spectra::RealModes;
 
-use crate::distance::{chosen_eigenspaces, interleaved, transverse};
 use crate::exact::coordinates;
 use crate::metric::Metric;
+use crate::modes::{chosen_eigenspaces, interleaved, transverse};
 use crate::tolerance::exact_tolerance;
 use crate::{ClusteringError, Partition};
 

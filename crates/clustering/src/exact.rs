@@ -11,8 +11,8 @@ use std::sync::Arc;
 use spectra::RealModes;
 
 use crate::cells::Points;
-use crate::distance::{chosen_eigenspaces, interleaved};
 use crate::metric::Metric;
+use crate::modes::{chosen_eigenspaces, interleaved};
 use crate::near_pairs::clusters_within_groups;
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition};

@@ -213,7 +213,7 @@ fn parts(state: &State) -> Vec<Parts> {
 fn largest_tolerance(spectrum: &RealModes<'_>, sets: &[&[usize]]) -> Result<f64, ClusteringError> {
     let mut largest = 0.0f64;
     for modes in sets {
-        let chosen = crate::distance::chosen_eigenspaces(spectrum, modes)?;
+        let chosen = crate::modes::chosen_eigenspaces(spectrum, modes)?;
         largest = largest.max(exact_tolerance(spectrum, &chosen));
     }
     Ok(largest)

@@ -19,8 +19,8 @@ use std::ops::Range;
 use spectra::RealModes;
 
 use crate::disjoint_sets::DisjointSetFamilies;
-use crate::distance::{check_threshold, chosen_eigenspaces, transverse};
 use crate::metric::Block;
+use crate::modes::{check_threshold, chosen_eigenspaces, transverse};
 use crate::{ClusteringError, EigenvectorDistance, Partition, mean_over_bases};
 
 /// Nodes side by side in one panel.

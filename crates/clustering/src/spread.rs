@@ -8,8 +8,8 @@
 
 use spectra::RealModes;
 
-use crate::distance::{chosen_eigenspaces, transverse};
 use crate::exact::are_among;
+use crate::modes::{chosen_eigenspaces, transverse};
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition, mean_over_bases};
 

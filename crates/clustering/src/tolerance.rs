@@ -7,7 +7,7 @@
 use spectra::RealModes;
 
 use crate::ClusteringError;
-use crate::distance::transverse;
+use crate::modes::transverse;
 
 /// Below this, components are equal whatever the residuals say: no solver in double precision is
 /// more accurate.

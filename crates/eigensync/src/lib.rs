@@ -144,9 +144,8 @@ pub use find::{EQUITABLE, curve_by, find, find_by};
 pub use findings::Findings;
 pub use modes::{ALL_MODES, Wanted, WantedModes};
 pub use observer::Observer;
-pub use simulated::{
-    Apart, End, Group, Known, MeanPairs, OverSeeds, Seen, Simulated, completed, observed,
-};
+pub use simulated::range::{End, Group, Known, Seen};
+pub use simulated::{Apart, MeanPairs, OverSeeds, Simulated, completed, observed};
 pub use stability::word;
 pub use step_effect::{Probe, StepEffect, looked_at as step_effects_looked_at};
 pub use study::{RegionBounds, Study, Sweep};

@@ -9,7 +9,7 @@
 //! uncoupled: whether their errors are small is a property of each node, and no synchrony.
 
 mod groups;
-mod range;
+pub(crate) mod range;
 
 use clustering::Partition;
 use dynamics::{Errors, Estimate, Outcome, Run};
@@ -19,7 +19,6 @@ use crate::{Bound, Sweep};
 use groups::groups;
 
 pub use groups::Apart;
-pub use range::{End, Group, Known, Seen};
 
 /// Errors below this, in units of the component, are what rounding and kicks leave of perfect
 /// synchrony: nodes that far apart are together, whatever fraction of the largest error it is.

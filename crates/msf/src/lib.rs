@@ -11,19 +11,21 @@ mod critical;
 mod curve;
 mod error;
 mod fit;
+mod isolated;
 mod origin;
 mod reach;
 mod rest;
 mod stable_region;
 mod step;
+mod zero;
 mod zeros;
 
 pub use attractors::Attractor;
 pub use critical::{CriticalCoupling, critical_couplings};
-pub use curve::{
-    Isolated, MasterStability, Node, Request, master_stability, master_stability_with,
-};
+pub use curve::{MasterStability, Node, Request, master_stability, master_stability_with};
 pub use error::MsfError;
+pub use isolated::Isolated;
 pub use reach::reach;
 pub use stable_region::{End, Interval, StableRegion};
-pub use zeros::{Advance, Refinement, Zero};
+pub use zero::Zero;
+pub use zeros::{Advance, Refinement};

@@ -16,6 +16,7 @@ mod curve;
 mod drawing;
 mod files;
 mod findings;
+mod hashes;
 mod journal;
 mod list;
 mod load;

@@ -4,10 +4,10 @@
 use clustering::CascadeTree;
 
 use crate::cascade_files::numbered;
+use crate::files::number;
 use crate::place::Folder;
 use crate::plan::Plan;
 use crate::problem::Result;
-use crate::results::number;
 use eigensync::Findings;
 
 /// With more rows the table is left out: `clusters.csv` says the same in one row a node.

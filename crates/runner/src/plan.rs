@@ -29,11 +29,11 @@ pub use network::nodes_named;
 pub use node::Node;
 use serde_json::Value;
 
+use crate::hashes::{links_hash, plan_hash};
 use crate::output::shown;
 use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
-use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
     Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, NetworkSpec, RegionsSpec,
     SweepSpec, ThresholdSpec,

@@ -13,6 +13,7 @@ use crate::cascade_files;
 use crate::claims::Claim;
 use crate::compare::{self, Comparison};
 use crate::drawing;
+use crate::files::number;
 use crate::journal::Held;
 use crate::membership;
 use crate::place::{Folder, Place};
@@ -186,9 +187,4 @@ fn npy(n_nodes: usize, values: &[f64]) -> Vec<u8> {
     writer.extend(values).expect("memory takes every byte");
     writer.finish().expect("as many values as the shape says");
     bytes
-}
-
-/// The shortest text that reads back as the same number.
-pub fn number(value: f64) -> String {
-    format!("{value:?}")
 }
