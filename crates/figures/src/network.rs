@@ -10,7 +10,9 @@ use super::label::Label;
 use super::links::{self, Link};
 use super::placement::{Placement, circle, grouped};
 use super::stress::{hop_distances, least_stress};
-use super::style::{INK, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
+use super::style::{
+    HEADER, INK, LABEL_SIZE, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on,
+};
 
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
@@ -34,6 +36,8 @@ const LEGEND_SHARE: f64 = 0.3;
 /// Nodes and links.
 #[derive(Clone, Debug, Default)]
 pub struct NetworkPanel {
+    /// Stands above the network, such as the range of ε in which its clusters hold; may be empty.
+    pub title: Label,
     /// The nodes, at least one.
     pub nodes: Vec<Node>,
     /// The links, each once.
@@ -69,7 +73,9 @@ impl NetworkPanel {
             n_rows => 1.7 * NOTE_SIZE + (n_rows - 1) as f64 * LEGEND_ROW,
         };
         let legend_height = legend_height + if n_more > 0 { LEGEND_ROW } else { 0.0 };
-        let room = Rect { bottom: cell.bottom - legend_height, ..cell }.grown(-MAX_RADIUS - 2.0);
+        let header = if self.title.is_empty() { 0.0 } else { HEADER };
+        let room = Rect { top: cell.top + header, bottom: cell.bottom - legend_height, ..cell };
+        let room = room.grown(-MAX_RADIUS - 2.0);
         let (width, height) = (room.width(), room.height());
         if width < 20.0 || height < 20.0 {
             return Err(FigureError::TooSmall { panel: panel.into(), width, height });
@@ -86,9 +92,11 @@ impl NetworkPanel {
         let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
         links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
+        let middle = (cell.left + cell.right) / 2.0;
+        let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
+        canvas.label(&self.title, [middle, baseline], NOTE_SIZE, Anchor::Middle);
         let mut cell = cell;
         if n_more > 0 {
-            let middle = (cell.left + cell.right) / 2.0;
             let at = [middle, cell.bottom - 0.7 * NOTE_SIZE + CAP_HEIGHT * NOTE_SIZE / 2.0];
             canvas.label(&Label::text(format!("and {n_more} more")), at, NOTE_SIZE, Anchor::Middle);
             cell.bottom -= LEGEND_ROW;

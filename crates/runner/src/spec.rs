@@ -183,8 +183,9 @@ pub struct FigureSpec {
     /// Modes whose eigenvectors are drawn beside matrices; 2, 3 and 4 by default, or those of them
     /// that are computed.
     pub eigenvectors: Option<Vec<usize>>,
-    /// Letter of the paper's panels: "a" gives (a1), (a2), …
-    pub letter: String,
+    /// Letter of the panels where a paper has several such figures: "a" gives (a1), (a2), …; without it
+    /// they are (a), (b), …
+    pub letter: Option<String>,
     /// How the network is laid out.
     pub layout: Layout,
     /// Modes whose critical couplings are marked on the sweep; all of them by default.
@@ -202,7 +203,7 @@ impl Default for FigureSpec {
         Self {
             kind: FigureKind::Sweep,
             eigenvectors: None,
-            letter: "a".into(),
+            letter: None,
             layout: Layout::Force,
             mark_modes: None,
             source_transitions: Vec::new(),

@@ -46,10 +46,8 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
 fn grouped_network(plan: &Plan) -> NetworkPanel {
     let groups = plan.network.groups();
     let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
-    NetworkPanel {
-        cluster_labels: groups.iter().map(|group| Label::text(group.name.as_str())).collect(),
-        ..super::network(plan, &nodes)
-    }
+    let names = groups.iter().map(|group| Label::text(group.name.as_str()));
+    super::network(plan, &nodes, names.collect())
 }
 
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
