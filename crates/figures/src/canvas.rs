@@ -327,8 +327,14 @@ impl Canvas {
     }
 
     // The writer escapes `<` only, and XML has no place for most control characters, nor for two more.
+    // Those that turn the direction of writing would turn what follows as well.
     fn text(&mut self, text: &str) {
-        let is_shown = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+        let turns = |c: char| {
+            matches!(c, '\u{61c}' | '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}'
+                | '\u{2066}'..='\u{2069}')
+        };
+        let is_shown =
+            |c: char| !c.is_control() && !turns(c) && !matches!(c, '\u{fffe}' | '\u{ffff}');
         let shown: String =
             text.chars().map(|c| if is_shown(c) { c } else { '\u{fffd}' }).collect();
         self.xml.set_preserve_whitespaces(true);

@@ -13,8 +13,6 @@ mod columns;
 mod layout;
 mod ruler;
 
-pub use check::CascadeError;
-
 use super::axis::{Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Rect};
 use super::error::FigureError;

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::cascade::CascadeError;
+use super::cascade_error::CascadeError;
 
 /// Why a figure could not be drawn. `panel` is the letter of the panel, as in "(a1)".
 #[derive(Debug, Error)]

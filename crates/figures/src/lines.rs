@@ -3,7 +3,7 @@
 //!
 //! A value that is not finite, or not positive on a logarithmic axis, leaves a gap in its line.
 
-use super::axis::{self, Axis, Scale, Tick};
+use super::axis::{self, Axes, Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
@@ -110,20 +110,6 @@ pub struct Note {
     pub at: [f64; 2],
     /// What it says.
     pub label: Label,
-}
-
-/// The two axes laid over a frame.
-#[derive(Clone, Copy)]
-pub(super) struct Axes {
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-}
-
-impl Axes {
-    /// Where a point stands on the page; none for what cannot be drawn.
-    pub(super) fn at(&self, x: f64, y: f64) -> Option<Point> {
-        Some([self.x.at(x)?, self.y.at(y)?])
-    }
 }
 
 impl LinePanel {

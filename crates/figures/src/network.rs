@@ -4,11 +4,12 @@
 use std::ops::Range;
 
 use super::canvas::{Anchor, Canvas, Point, Rect};
+use super::circle::circle;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
 use super::links::{self, Link};
-use super::placement::{Placement, circle, grouped};
+use super::placement::{Placement, grouped};
 use super::stress::{hop_distances, least_stress};
 use super::style::{
     HEADER, INK, LABEL_SIZE, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on,
@@ -17,6 +18,9 @@ use super::style::{
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
 const MIN_RADIUS: f64 = 1.2;
+/// Room between nodes and the edge beside the radius of the largest.
+const MARGIN: f64 = 2.0;
+const MAX_MARGIN: f64 = MAX_RADIUS + MARGIN;
 /// Radius over the distance of close nodes.
 const CLOSENESS: f64 = 0.36;
 /// Largest size of a label inside a node, and the smallest that is still drawn.
@@ -75,19 +79,18 @@ impl NetworkPanel {
         let legend_height = legend_height + if n_more > 0 { LEGEND_ROW } else { 0.0 };
         let header = if self.title.is_empty() { 0.0 } else { HEADER };
         let room = Rect { top: cell.top + header, bottom: cell.bottom - legend_height, ..cell };
-        let room = room.grown(-MAX_RADIUS - 2.0);
-        let (width, height) = (room.width(), room.height());
+        let [width, height] = [room.width(), room.height()].map(|side| side - 2.0 * MAX_MARGIN);
         if width < 20.0 || height < 20.0 {
             return Err(FigureError::TooSmall { panel: panel.into(), width, height });
         }
         let given = self.places(panel)?;
-        let mut places = fitted(&given, room);
+        let mut places = spread_over(&given, room);
         // The letter of the panel stands in the corner.
         let [right, bottom] =
             [cell.left + Label::text(panel).width(LETTER_SIZE), cell.top + LETTER_SIZE];
         let letter = Rect { right, bottom, ..cell }.grown(radius(&places));
         if places.iter().any(|&place| letter.contains(place)) {
-            places = fitted(&given, Rect { top: room.top + LETTER_SIZE, ..room });
+            places = spread_over(&given, Rect { top: room.top + LETTER_SIZE, ..room });
         }
         let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
         links::draw(canvas, &self.links, &places, &clusters);
@@ -210,6 +213,13 @@ impl NetworkPanel {
     }
 }
 
+/// Places that fill a rectangle, so that nodes of the radius they have there are whole.
+fn spread_over(places: &[Point], room: Rect) -> Vec<Point> {
+    let largest = fitted(places, room.grown(-MARGIN));
+    let margin = radius(&largest) + MARGIN;
+    fitted(places, room.grown(-margin))
+}
+
 /// Radius of nodes at these places.
 fn radius(places: &[Point]) -> f64 {
     (CLOSENESS * closest(places)).clamp(MIN_RADIUS, MAX_RADIUS)
@@ -308,7 +318,7 @@ mod tests {
         };
         // From the upper left to the lower right corner, and the other way round.
         let (under, clear) = ([[0.0, 1.0], [1.0, 0.0]], [[1.0, 1.0], [0.0, 0.0]]);
-        assert!((positions(clear) - MAX_RADIUS - 2.0).abs() < 0.1, "{}", positions(clear));
+        assert!((positions(clear) - MAX_MARGIN).abs() < 0.1, "{}", positions(clear));
         assert!(positions(under) - MAX_RADIUS > LETTER_SIZE, "{}", positions(under));
     }
 

@@ -1,10 +1,9 @@
 //! One curve of a line panel: points in order, joined by lines, with marks and spread.
 
-use super::axis::Scale;
+use super::axis::{Axes, Scale};
 use super::canvas::{Canvas, Point, Rect};
 use super::error::FigureError;
 use super::label::Label;
-use super::lines::Axes;
 use super::style::{LINK_INK, Shape, Stroke, series_style};
 
 /// Marks on a curve, counted over its whole length, where it has more points than this.

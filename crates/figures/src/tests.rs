@@ -222,3 +222,60 @@ fn lines_stand_between_groups_only() {
     assert_eq!(drawn(&[[0, 3], [3, 9]]), none + 1);
     assert_eq!(drawn(&[[0, 3], [5, 9]]), none + 2);
 }
+
+/// A network of Barabási and Albert's, three links a new node.
+fn scale_free(n_nodes: usize) -> NetworkPanel {
+    let mut state = 1_u64;
+    let mut below = |n: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % n
+    };
+    let mut ends = vec![0, 1, 2];
+    let mut links = Vec::new();
+    for node in 3..n_nodes {
+        for _ in 0..3 {
+            let to = ends[below(ends.len())];
+            if to != node {
+                links.push(Link { from: node, to, weight: 1.0 });
+                ends.extend([node, to]);
+            }
+        }
+    }
+    let nodes = (0..n_nodes).map(|k| Node { label: k.to_string(), cluster: None }).collect();
+    NetworkPanel { nodes, links, placement: Placement::Stress, ..NetworkPanel::default() }
+}
+
+#[test]
+fn a_thousand_nodes_and_two_thousand_states_are_drawn_in_seconds() {
+    let states = (0..2000).map(|state: usize| {
+        let n_clusters = 1 + state / 8;
+        let cluster = |k: usize| CascadeCluster {
+            n_nodes: 1000 / n_clusters,
+            parent: (state > 0).then(|| k.min((state - 1) / 8)),
+            label: Label::math("C").subscript(&k.to_string()),
+            colour: k,
+        };
+        CascadeState {
+            epsilon: (2000.0 - state as f64, (state > 0).then_some(2001.0 - state as f64)),
+            clusters: (0..n_clusters)
+                .map(cluster)
+                .map(|c| CascadeCluster { parent: None, ..c })
+                .collect(),
+        }
+    });
+    let cascade = CascadePanel { n_nodes: 1000, states: states.collect(), shown: Some(700) };
+    let started = std::time::Instant::now();
+    let svg = figure(vec![
+        ("(a)", Content::Network(scale_free(1000))),
+        ("(b)", Content::Cascade(cascade)),
+    ])
+    .svg()
+    .unwrap();
+    let drawn = started.elapsed();
+    png(&svg, 300.0).unwrap();
+    let all = started.elapsed();
+    println!("drawn in {drawn:?}, with its PNG in {all:?}");
+    // Fifteen seconds before, and half of five now, but tests run many at once.
+    assert!(all.as_secs_f64() < 10.0, "{all:?}");
+    assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
+}

@@ -21,7 +21,7 @@ const HATCH_WIDTH: f64 = 0.5;
 /// Share of the colour of a band, beside white, in its block.
 const BLOCK_STRENGTH: f64 = 0.6;
 /// Outline of the state that another panel shows.
-const SHOWN_WIDTH: f64 = 1.4;
+const SHOWN_WIDTH: f64 = 1.1;
 /// An open edge fades to white in so many steps of this width.
 const FADE_STEPS: i32 = 6;
 const FADE_STEP: f64 = 1.4;

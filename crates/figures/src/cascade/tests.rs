@@ -3,6 +3,7 @@
 
 use super::layout::{Clusters, Strand, strands};
 use super::*;
+use crate::cascade_error::CascadeError;
 use crate::font::{Face, text_width};
 use crate::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
 use resvg::usvg::roxmltree::{Document, Node};
@@ -216,7 +217,7 @@ fn bands_have_the_colours_of_their_clusters_and_the_state_shown_elsewhere_a_fram
             assert_eq!(strands.iter().find(is_drawn).unwrap().colour, colour);
         }
     }
-    let frames = |panel: &CascadePanel| svg(panel).matches("stroke-width=\"1.40\"").count();
+    let frames = |panel: &CascadePanel| svg(panel).matches("stroke-width=\"1.10\"").count();
     assert_eq!(frames(&panel), 0);
     panel.shown = Some(1);
     assert_eq!(frames(&panel), 1);
