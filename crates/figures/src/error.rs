@@ -42,6 +42,12 @@ pub enum FigureError {
         /// Columns of the grid.
         n_columns: usize,
     },
+    /// A page that could not be written.
+    #[error("no PDF can be made: {reason}")]
+    Pdf {
+        /// Why.
+        reason: String,
+    },
     /// A fault of the program itself.
     #[error("panel {panel} met a fault of eigensync in drawing")]
     Panicked {

@@ -99,6 +99,27 @@ impl Figure {
         }
     }
 
+    /// The figure with these panels alone, called by their letters without parentheses, at the size they
+    /// have in the whole; none where no panel is called so.
+    pub fn only(&self, letters: &[String]) -> Option<Self> {
+        let is_kept = |panel: &&Panel| {
+            letters.iter().any(|letter| panel.letter.trim_matches(['(', ')']) == letter)
+        };
+        let mut panels: Vec<Panel> = self.panels.iter().filter(is_kept).cloned().collect();
+        if panels.is_empty() {
+            return None;
+        }
+        let (columns, width_mm) = closed_up(
+            &self.columns,
+            self.width_mm,
+            COLUMN_GAP,
+            panels.iter_mut().map(|p| &mut p.columns),
+        );
+        let (rows, height_mm) =
+            closed_up(&self.rows, self.height_mm, ROW_GAP, panels.iter_mut().map(|p| &mut p.rows));
+        Some(Self { title: self.title.clone(), width_mm, height_mm, columns, rows, panels })
+    }
+
     /// The figure as SVG text, every panel of which can be drawn.
     #[cfg(test)]
     pub(super) fn svg(&self) -> Result<String, FigureError> {
@@ -218,6 +239,27 @@ fn spans(shares: &[f64], extent: f64, gap: f64) -> Vec<[f64; 2]> {
         start += share * unit + gap;
     }
     spans
+}
+
+/// The shares of the columns or rows that are covered and the extent in mm that these have together; the
+/// covered ranges then count these alone.
+fn closed_up<'a>(
+    shares: &[f64],
+    extent_mm: f64,
+    gap: f64,
+    covered: impl Iterator<Item = &'a mut Range<usize>>,
+) -> (Vec<f64>, f64) {
+    let covered: Vec<&mut Range<usize>> = covered.collect();
+    let is_kept: Vec<bool> =
+        (0..shares.len()).map(|k| covered.iter().any(|range| range.contains(&k))).collect();
+    let n_before = |end: usize| is_kept.iter().take(end).filter(|&&kept| kept).count();
+    let kept: Vec<f64> =
+        shares.iter().zip(&is_kept).filter(|(_, kept)| **kept).map(|(share, _)| *share).collect();
+    let spans = spans(shares, extent_mm * POINTS_PER_MM, gap);
+    let lengths = spans.iter().zip(&is_kept).filter(|(_, kept)| **kept).map(|([a, b], _)| b - a);
+    let points = lengths.sum::<f64>() + gap * (kept.len() - 1) as f64 + 2.0 * EDGE;
+    covered.into_iter().for_each(|range| *range = n_before(range.start)..n_before(range.end));
+    (kept, points / POINTS_PER_MM)
 }
 
 fn cell(panel: &Panel, columns: &[[f64; 2]], rows: &[[f64; 2]]) -> Rect {

@@ -1,10 +1,10 @@
-//! Figures: panels with letters in a grid, as SVG text and PNG bytes, from plain data.
+//! Figures: panels with letters in a grid, as SVG text, and PNG and PDF bytes, from plain data.
 //!
 //! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
 //! (with `series`, `axis`, `markers` and `legend`; `msf` and `components` fill it), `network` (with
 //! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`, `cascade`; a new kind is
 //! one more file and one more [`Content`] in `figure`. They draw through `canvas`, which writes SVG in points,
-//! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG.
+//! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG of it, `pdf` the PDF.
 //! `layouts` sets panels side by side as the paper's figures do.
 
 mod axis;
@@ -27,12 +27,15 @@ mod links;
 mod markers;
 mod msf;
 mod network;
+mod pdf;
 mod placement;
 mod positions;
 mod raster;
+mod reader;
 mod series;
 mod stress;
 mod style;
+mod title;
 
 pub use axis::Scale;
 pub use cascade::{CascadeCluster, CascadePanel, CascadeState};
@@ -49,6 +52,7 @@ pub use links::Link;
 pub use markers::{Marker, MarkerGroup, MarkerStyle};
 pub use msf::{MsfCurve, msf_panel};
 pub use network::{NetworkPanel, Node};
+pub use pdf::pdf;
 pub use placement::Placement;
 pub use positions::PositionsPanel;
 pub use raster::png;

@@ -103,7 +103,7 @@ pub struct Span {
     pub label: Label,
 }
 
-/// A dot with a label beside it.
+/// A dot with a label beside it; without the label where there is no room for it.
 #[derive(Clone, Debug)]
 pub struct Note {
     /// Where it stands, (x, y). A note outside the ranges is left out.
@@ -314,7 +314,9 @@ impl LinePanel {
             canvas.circle(at, 2.0, INK, Stroke::solid("#ffffff", 0.5));
             let height = 1.1 * NOTE_SIZE;
             let size = [note.label.width(NOTE_SIZE), height];
-            let [left, top] = legend::beside(at, size, frame, &taken, &boxes);
+            let Some([left, top]) = legend::beside(at, size, frame, &taken, &boxes) else {
+                continue;
+            };
             boxes.push(Rect { left, top, right: left + size[0], bottom: top + height });
             let baseline = top + 0.8 * height;
             canvas.label(&note.label, [left, baseline], NOTE_SIZE, Anchor::Start);

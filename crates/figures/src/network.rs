@@ -12,8 +12,9 @@ use super::links::{self, Link};
 use super::placement::{Placement, grouped};
 use super::stress::{hop_distances, least_stress};
 use super::style::{
-    HEADER, INK, LABEL_SIZE, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on,
+    HEADER, INK, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on,
 };
+use super::title;
 
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
@@ -96,8 +97,7 @@ impl NetworkPanel {
         links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
         let middle = (cell.left + cell.right) / 2.0;
-        let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
-        canvas.label(&self.title, [middle, baseline], NOTE_SIZE, Anchor::Middle);
+        title::draw(canvas, &self.title, middle, (cell, cell.right), panel);
         let mut cell = cell;
         if n_more > 0 {
             let at = [middle, cell.bottom - 0.7 * NOTE_SIZE + CAP_HEIGHT * NOTE_SIZE / 2.0];
@@ -154,10 +154,15 @@ impl NetworkPanel {
         let labels: Vec<Label> = self.nodes.iter().map(|n| Label::text(n.label.as_str())).collect();
         let widest = labels.iter().map(|l| l.width(1.0)).fold(0.0, f64::max);
         let size = MAX_LABEL.min(1.65 * radius / widest).min(1.4 * radius);
+        // Of nodes that stand over one another the first is named.
+        let mut named: Vec<Point> = Vec::new();
         for ((node, label), &[x, y]) in self.nodes.iter().zip(&labels).zip(places) {
             let fill = node.cluster.map_or(UNCLUSTERED, cluster_fill);
             canvas.circle([x, y], radius, fill, Stroke::solid(INK, (0.08 * radius).min(0.6)));
-            if size >= MIN_LABEL {
+            let is_clear =
+                |other: &Point| (x - other[0]).abs() > widest * size || (y - other[1]).abs() > size;
+            if size >= MIN_LABEL && named.iter().all(is_clear) {
+                named.push([x, y]);
                 let at = [x, y + CAP_HEIGHT * size / 2.0];
                 canvas.label_in(label, at, size, ink_on(fill));
             }

@@ -5,8 +5,10 @@
 mod cascade;
 mod identity;
 mod marks;
+mod order;
 mod pairs;
 mod picture;
+mod regions;
 mod room;
 
 pub use pairs::{distance, error_matrix};
@@ -34,7 +36,7 @@ const DRAWN_NODES: usize = 1000;
 fn figure(plan: &Plan, findings: &Findings) -> Figure {
     match (plan.figure_kind(), &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
-        (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
+        (FigureKind::Regions, Some(simulated)) => regions::regions(plan, findings, simulated),
         _ => sweep(plan, findings),
     }
 }
@@ -55,7 +57,9 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     let network = network_or_spectrum(plan, findings, &mut identities);
     let mut panels = vec![left(0, 1, network)];
     let lines = match (&plan.sweep, &findings.simulated) {
-        (Some(sweep), Some(simulated)) => Some(errors(plan, sweep, simulated, findings)),
+        (Some(sweep), Some(simulated)) => {
+            Some(errors(plan, sweep, simulated, findings, &identities))
+        }
         _ => None,
     };
     let content = match lines {
@@ -93,14 +97,22 @@ fn network_or_spectrum(plan: &Plan, findings: &Findings, identities: &mut Identi
         let name = |(m, nodes): (usize, &Vec<usize>)| identity::own_name(&plan.network, m, nodes);
         return Content::Network(network(plan, own, (1..).zip(own).map(name).collect()));
     }
+    Content::Network(predicted_network(plan, findings, identities))
+}
+
+/// The network coloured by the clusters of the predicted state to be shown, grey where there is none.
+fn predicted_network(plan: &Plan, findings: &Findings, identities: &Identities) -> NetworkPanel {
     let Some(shown) = identities.shown else {
-        return Content::Network(network(plan, &[], Vec::new()));
+        return network(plan, &[], Vec::new());
     };
     let state = &findings.cascade[shown];
-    // The clusters of this state have the first colours, in their order.
-    let names = identities.of_state[shown].iter().map(|cluster| cluster.name.clone()).collect();
-    let network = network(plan, &state.clusters.nontrivial(), names);
-    Content::Network(NetworkPanel { title: range(state.epsilon), ..network })
+    let mut clusters: Vec<_> =
+        state.clusters.nontrivial().into_iter().zip(&identities.of_state[shown]).collect();
+    // These have the first colours.
+    clusters.sort_by_key(|(_, identity)| identity.colour);
+    let (nodes, names): (Vec<_>, Vec<_>) =
+        clusters.into_iter().map(|(nodes, identity)| (nodes, identity.name.clone())).unzip();
+    NetworkPanel { title: range(state.epsilon), ..network(plan, &nodes, names) }
 }
 
 /// A range of ε, as an inequality.
@@ -167,8 +179,15 @@ fn msf(findings: &Findings) -> LinePanel {
 }
 
 /// δx_i to the reference node or δx^c_m within clusters, whichever the experiment asks for.
-fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings) -> LinePanel {
+fn errors(
+    plan: &Plan,
+    sweep: &Sweep,
+    simulated: &Simulated,
+    findings: &Findings,
+    identities: &Identities,
+) -> LinePanel {
     let labels = plan.network.labels();
+    let colours = identities.shown_colours(findings, labels.len());
     let observables = &sweep.observables;
     let nodes: Vec<usize> =
         (0..labels.len()).filter(|node| Some(*node) != observables.reference).collect();
@@ -176,9 +195,12 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
         if observables.clusters.is_empty() {
             let node = nodes[number];
             let label = Label::math("δx").subscript(&labels[node]);
-            curve(plan, label, style, |at| {
+            let curve = curve(plan, label, style, |at| {
                 simulated.over_seeds(at, |errors| errors.to_reference[node])
-            })
+            });
+            // A node in no cluster has a colour that none of them has.
+            let free = identities.n_shown() + style;
+            Series { cluster: Some(colours[node].unwrap_or(free)), ..curve }
         } else {
             let label = Label::math("δx").subscript(&(number + 1).to_string()).superscript("c");
             curve(plan, label, number, |at| {
@@ -282,6 +304,7 @@ fn curve(
         label,
         style,
         muted: false,
+        cluster: None,
         x,
         y: of(&|point| point.mean),
         spread: Some(Spread {

@@ -37,8 +37,9 @@ pub fn write(
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
     let mut warnings = Warnings::new(&plan.id);
     picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
+    let svg = picture.svg.map(String::into_bytes);
     for (name, bytes) in
-        [("figure.png", picture.png), ("figure.svg", picture.svg.map(String::into_bytes))]
+        [("figure.png", picture.png), ("figure.pdf", picture.pdf), ("figure.svg", svg)]
     {
         if let Some(Err(problem)) = bytes.map(|bytes| folder.write(name, bytes)) {
             warnings.add("figure", problem.to_string());

@@ -185,7 +185,11 @@ pub struct FigureSpec {
     pub eigenvectors: Option<Vec<usize>>,
     /// Letter of the panels where a paper has several such figures: "a" gives (a1), (a2), …; without it
     /// they are (a), (b), …
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub letter: Option<String>,
+    /// Letters of the panels that are drawn, such as "a" or "b1"; all of them by default.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub panels: Vec<String>,
     /// How the network is laid out.
     pub layout: Layout,
     /// Modes whose critical couplings are marked on the sweep; all of them by default.
@@ -204,6 +208,7 @@ impl Default for FigureSpec {
             kind: FigureKind::Sweep,
             eigenvectors: None,
             letter: None,
+            panels: Vec::new(),
             layout: Layout::Force,
             mark_modes: None,
             source_transitions: Vec::new(),

@@ -4,7 +4,7 @@
 use super::layout::{Clusters, Strand, strands};
 use super::*;
 use crate::cascade_error::CascadeError;
-use crate::font::{Face, text_width};
+use crate::tests::{boxes, texts};
 use crate::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
 use resvg::usvg::roxmltree::{Document, Node};
 
@@ -82,46 +82,6 @@ fn figure(panel: &CascadePanel, [width_mm, height_mm]: [f64; 2]) -> Figure {
 
 fn svg(panel: &CascadePanel) -> String {
     figure(panel, [170.0, 90.0]).svg().unwrap()
-}
-
-fn texts(svg: &str) -> Vec<String> {
-    let document = Document::parse(svg).unwrap();
-    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
-    let text =
-        |label: Node| label.descendants().filter(Node::is_text).filter_map(|n| n.text()).collect();
-    labels.map(text).collect()
-}
-
-/// What every label covers, baseline to the height of a capital, as [left, top, right, bottom].
-fn boxes(svg: &str) -> Vec<(String, [f64; 4])> {
-    let document = Document::parse(svg).unwrap();
-    let number = |node: &Node, name| node.attribute(name).map(|v| v.parse::<f64>().unwrap());
-    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
-    let covered = |label: Node| {
-        let (mut width, mut size, mut text) = (0.0, 0.0_f64, String::new());
-        for piece in label.children().filter(|node| node.has_tag_name("tspan")) {
-            let is_italic = piece.attribute("font-style").is_some();
-            let face = if is_italic { Face::Italic } else { Face::Regular };
-            let piece_size = number(&piece, "font-size").unwrap();
-            size = size.max(piece_size);
-            width += text_width(piece.text().unwrap(), face, piece_size);
-            width += number(&piece, "dx").unwrap_or(0.0);
-            text += piece.text().unwrap();
-        }
-        let [x, y] = ["x", "y"].map(|name| number(&label, name).unwrap());
-        let left = match label.attribute("text-anchor").unwrap() {
-            "start" => 0.0,
-            "middle" => width / 2.0,
-            _ => width,
-        };
-        let high = CAP_HEIGHT * size;
-        let covered = match label.attribute("transform") {
-            Some(_) => [x - high, y - left, x, y - left + width],
-            None => [x - left, y - high, x - left + width, y],
-        };
-        (text, covered)
-    };
-    labels.map(covered).collect()
 }
 
 /// The extent of every cluster of a state drawn without blocks.

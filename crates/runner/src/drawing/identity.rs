@@ -28,8 +28,8 @@ pub struct Identity {
 /// [`clustering::Partition::nontrivial`].
 pub struct Identities {
     pub of_state: Vec<Vec<Identity>>,
-    /// The state by whose clusters the network is coloured: with the most clusters, the first of equals;
-    /// none where no state has clusters beside the one of all nodes.
+    /// The state by whose clusters the network is coloured; none where none has clusters beside the one
+    /// of all nodes.
     pub shown: Option<usize>,
 }
 
@@ -37,24 +37,46 @@ pub struct Identities {
 type Chain = usize;
 
 impl Identities {
+    /// With the state to be shown that has the most clusters beside the one of all nodes.
     pub fn of(plan: &Plan, findings: &Findings) -> Self {
+        Self::showing(plan, findings, shown(&findings.cascade))
+    }
+
+    /// With this state to be shown, whose clusters have the first colours.
+    pub fn showing(plan: &Plan, findings: &Findings, shown: Option<usize>) -> Self {
         let states = &findings.cascade;
         let clusters: Vec<Vec<Vec<usize>>> =
             states.iter().map(|state| state.clusters.nontrivial()).collect();
-        let shown = shown(states, &clusters);
-        let n_nodes = plan.network.n_nodes();
-        let (chains, n_chains) = chains(n_nodes, &clusters);
-        let colours = colours(&chains, n_chains, &clusters, shown);
-        let mut names = Names::new(plan, findings);
-        let of_state =
-            clusters.iter().zip(&chains).enumerate().map(|(state, (clusters, chains))| {
-                let identity = |(nodes, &chain): (&Vec<usize>, &Chain)| Identity {
-                    colour: colours[chain],
-                    name: names.name(state, nodes, chain),
-                };
-                clusters.iter().zip(chains).map(identity).collect()
-            });
+        let (chains, n_chains) = chains(plan.network.n_nodes(), &clusters);
+        let names = names(plan, findings, &clusters, &chains);
+        let mut first: Vec<(usize, Chain)> = shown.map_or_else(Vec::new, |state| {
+            names[state].iter().map(|(number, _)| *number).zip(chains[state].clone()).collect()
+        });
+        first.sort_unstable();
+        let first: Vec<Chain> = first.into_iter().map(|(_, chain)| chain).collect();
+        let colours = colours(&chains, n_chains, &clusters, &first);
+        let of_state = names.into_iter().zip(&chains).map(|(names, chains)| {
+            let named = names.into_iter().zip(chains);
+            named.map(|((_, name), &chain)| Identity { colour: colours[chain], name }).collect()
+        });
         Self { of_state: of_state.collect(), shown }
+    }
+
+    /// How many clusters are shown.
+    pub fn n_shown(&self) -> usize {
+        self.shown.map_or(0, |state| self.of_state[state].len())
+    }
+
+    /// The colour of each node's cluster in the state to be shown.
+    pub fn shown_colours(&self, findings: &Findings, n_nodes: usize) -> Vec<Option<usize>> {
+        let mut colours = vec![None; n_nodes];
+        for state in self.shown {
+            let clusters = findings.cascade[state].clusters.nontrivial();
+            for (nodes, identity) in clusters.iter().zip(&self.of_state[state]) {
+                nodes.iter().for_each(|&node| colours[node] = Some(identity.colour));
+            }
+        }
+        colours
     }
 }
 
@@ -65,10 +87,13 @@ pub fn own_name(network: &Network, m: usize, nodes: &[usize]) -> Label {
     group.map_or(label.clone(), |group| label.with_text(format!(", {}", group.name)))
 }
 
-fn shown(states: &[State], clusters: &[Vec<Vec<usize>>]) -> Option<usize> {
-    let parted = (0..states.len()).filter(|&state| states[state].clusters.n_clusters() > 1);
-    let some = parted.filter(|&state| !clusters[state].is_empty());
-    some.max_by_key(|&state| (clusters[state].len(), Reverse(state)))
+fn shown(states: &[State]) -> Option<usize> {
+    let n_clusters = |state: usize| {
+        let sizes = states[state].clusters.sizes();
+        if sizes.len() > 1 { sizes.into_iter().filter(|&size| size > 1).count() } else { 0 }
+    };
+    let counts = (0..states.len()).map(|state| (n_clusters(state), Reverse(state)));
+    counts.filter(|&(n, _)| n > 0).max().map(|(_, Reverse(state))| state)
 }
 
 /// The chain of every cluster of every state, and how many chains there are.
@@ -111,12 +136,12 @@ pub fn followed(before: &[Option<usize>], clusters: &[Vec<usize>], next: &mut us
     marks.into_iter().map(|mark| mark.unwrap_or_else(&mut new)).collect()
 }
 
-/// The colour of every chain.
+/// The colour of every chain: the first colours for these, then by falling size.
 fn colours(
     chains: &[Vec<Chain>],
     n_chains: usize,
     clusters: &[Vec<Vec<usize>>],
-    shown: Option<usize>,
+    first: &[Chain],
 ) -> Vec<usize> {
     let mut largest = vec![0; n_chains];
     for (chains, clusters) in chains.iter().zip(clusters) {
@@ -125,7 +150,7 @@ fn colours(
         }
     }
     let mut place_shown = vec![usize::MAX; n_chains];
-    for (place, &chain) in shown.iter().flat_map(|&state| chains[state].iter().enumerate()) {
+    for (place, &chain) in first.iter().enumerate() {
         place_shown[chain] = place;
     }
     let mut order: Vec<Chain> = (0..n_chains).collect();
@@ -135,40 +160,41 @@ fn colours(
     colours
 }
 
-/// Names of clusters: as long as one has the same nodes it is called the same.
-struct Names<'a> {
-    plan: &'a Plan,
-    /// The number in `cascade.csv` of the cluster that begins in a state with a first node.
-    numbers: HashMap<(usize, usize), usize>,
-    /// The nodes of each chain when it was named last, and that name.
-    named: HashMap<Chain, (Vec<usize>, Label)>,
+/// The number and the name of every cluster of every state. As long as one has the same nodes it is called
+/// the same.
+fn names(
+    plan: &Plan,
+    findings: &Findings,
+    clusters: &[Vec<Vec<usize>>],
+    chains: &[Vec<Chain>],
+) -> Vec<Vec<(usize, Label)>> {
+    let rows = (1..).zip(findings.trees.iter().flat_map(|tree| &tree.clusters));
+    let begins = rows.map(|(number, row)| ((row.states.start, row.first_node), number));
+    let numbers: HashMap<(usize, usize), usize> = begins.collect();
+    // The nodes of each chain when it was named last, and their number.
+    let mut last: HashMap<Chain, (&[usize], usize)> = HashMap::new();
+    let states = clusters.iter().zip(chains).enumerate().map(|(state, (clusters, chains))| {
+        clusters
+            .iter()
+            .zip(chains)
+            .map(|(nodes, &chain)| {
+                let number = match last.get(&chain) {
+                    Some((same, number)) if *same == &nodes[..] => *number,
+                    _ => numbers.get(&(state, nodes[0])).copied().unwrap_or(0),
+                };
+                last.insert(chain, (nodes, number));
+                (number, name_of(&plan.network, number, nodes))
+            })
+            .collect()
+    });
+    states.collect()
 }
 
-impl<'a> Names<'a> {
-    fn new(plan: &'a Plan, findings: &Findings) -> Self {
-        let clusters = findings.trees.iter().flat_map(|tree| &tree.clusters);
-        let begins = (1..)
-            .zip(clusters)
-            .map(|(number, cluster)| ((cluster.states.start, cluster.first_node), number));
-        Self { plan, numbers: begins.collect(), named: HashMap::new() }
-    }
-
-    fn name(&mut self, state: usize, nodes: &[usize], chain: Chain) -> Label {
-        if let Some((same, name)) = self.named.get(&chain)
-            && same == nodes
-        {
-            return name.clone();
-        }
-        let group = self.plan.network.groups().iter().find(|group| group.nodes == nodes);
-        let number = || self.numbers.get(&(state, nodes[0]));
-        let name = match group {
-            Some(group) => Label::text(group.name.as_str()),
-            None => number().map_or_else(Label::default, |number| {
-                Label::math("C").subscript(&number.to_string())
-            }),
-        };
-        self.named.insert(chain, (nodes.to_vec(), name.clone()));
-        name
+/// The name of the group that a cluster is, else its number.
+fn name_of(network: &Network, number: usize, nodes: &[usize]) -> Label {
+    match network.groups().iter().find(|group| group.nodes == nodes) {
+        Some(group) => Label::text(group.name.as_str()),
+        None => Label::math("C").subscript(&number.to_string()),
     }
 }
 
@@ -189,7 +215,7 @@ mod tests {
         // Of two halves of the chain of the five nodes the first goes on.
         let expected = [vec![0], vec![1, 0], vec![1], vec![1, 0, 2], vec![1]];
         assert_eq!((&chains[..4], n_chains), (&expected[..4], 3));
-        let colours = colours(&chains, n_chains, &states, Some(3));
+        let colours = colours(&chains, n_chains, &states, &chains[3]);
         assert_eq!(colours, [1, 0, 2], "the state that is shown has the first colours in order");
     }
 
