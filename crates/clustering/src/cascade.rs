@@ -12,12 +12,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use msf::StableRegion;
-use spectra::Spectrum;
+use spectra::{RealModes, Spectrum};
 
 use crate::coincidences::Coincidences;
-use crate::distance::{check_finite, check_shapes, check_synchronous_mode, transverse};
 use crate::exact::ExactClusters;
 use crate::linkage::clusters_of_each;
+use crate::modes::{check_finite, check_shapes, check_synchronous_mode, transverse};
 use crate::{ClusteringError, Partition};
 
 /// Couplings closer than this, relatively, are one: they differ by rounding.
@@ -105,6 +105,7 @@ pub fn cascade_reported(
     rule: ClusterRule,
     progress: &dyn Fn(u64),
 ) -> Result<Vec<State>, ClusteringError> {
+    let spectrum = &spectrum.real_modes();
     check_shapes(spectrum);
     check_synchronous_mode(spectrum)?;
     check_finite(spectrum, &(1..spectrum.eigenvalues.len()).collect::<Vec<_>>())?;
@@ -162,7 +163,7 @@ struct Eigenspace {
 }
 
 impl Eigenspace {
-    fn of(spectrum: &Spectrum) -> Vec<Self> {
+    fn of(spectrum: &RealModes<'_>) -> Vec<Self> {
         let of = |space: &Range<usize>| {
             let sum: f64 = spectrum.eigenvalues[space.clone()].iter().sum();
             let magnitude = if space.start == 0 { 0.0 } else { -sum / space.len() as f64 };
@@ -174,7 +175,7 @@ impl Eigenspace {
 
 /// Down to which ε the computed modes decide: 0 if they are all there are, and all σ are known.
 fn lowest_coupling(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     eigenspaces: &[Eigenspace],
     stable: &StableRegion,
 ) -> Result<f64, ClusteringError> {
@@ -265,7 +266,7 @@ struct Clusters {
 
 /// [`crate::EigenvectorDistance::exact_clusters`] of every set of unstable modes.
 fn exact_clusters(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     progress: &dyn Fn(u64),
 ) -> Result<Vec<Clusters>, ClusteringError> {
@@ -280,7 +281,7 @@ fn exact_clusters(
 
 /// [`crate::EigenvectorDistance::clusters_within`] of every set of unstable modes.
 fn near_clusters(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     threshold: f64,
     progress: &dyn Fn(u64),

@@ -19,11 +19,11 @@
 //! that E is rather too small. In small networks E is of the order of 1e-9: there components that
 //! agree do so for a reason, be it that all unstable modes are localised elsewhere.
 
-use spectra::Spectrum;
+use spectra::RealModes;
 
-use crate::distance::{chosen_eigenspaces, interleaved, transverse};
 use crate::exact::coordinates;
 use crate::metric::Metric;
+use crate::modes::{chosen_eigenspaces, interleaved, transverse};
 use crate::tolerance::exact_tolerance;
 use crate::{ClusteringError, Partition};
 
@@ -55,7 +55,7 @@ pub struct Coincidences {
 pub(crate) fn taken_apart(
     clusters: &Partition,
     cells: &Partition,
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     modes: &[usize],
 ) -> Result<Option<(Partition, Coincidences)>, ClusteringError> {
     let n_cells = cells_of_each(clusters, cells);
@@ -98,7 +98,7 @@ fn cells_of_each(clusters: &Partition, cells: &Partition) -> Vec<usize> {
 
 /// How many pairs of nodes chance brings within the tolerance, from the density of these.
 fn expected_pairs(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     modes: &[usize],
     nodes: &[usize],
 ) -> Result<f64, ClusteringError> {

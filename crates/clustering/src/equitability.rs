@@ -20,7 +20,7 @@
 
 use sprs::CsMatViewI;
 
-use crate::distance::check_threshold;
+use crate::modes::check_threshold;
 use crate::{ClusteringError, Partition};
 
 /// How far a partition is from equitable.

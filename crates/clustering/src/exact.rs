@@ -8,11 +8,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use spectra::Spectrum;
+use spectra::RealModes;
 
 use crate::cells::Points;
-use crate::distance::{chosen_eigenspaces, interleaved};
 use crate::metric::Metric;
+use crate::modes::{chosen_eigenspaces, interleaved};
 use crate::near_pairs::clusters_within_groups;
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition};
@@ -41,7 +41,7 @@ pub(crate) fn clusters_of_rows(
 /// within the clusters before, and by the new modes alone. Clusters whose nodes are all within the
 /// tolerance of the first are whole; only the others are linked row by row.
 pub(crate) struct ExactClusters<'a> {
-    spectrum: &'a Spectrum,
+    spectrum: &'a RealModes<'a>,
     modes: Vec<usize>,
     clusters: Arc<Partition>,
     /// The nodes of clusters of two nodes or more but for the first of each.
@@ -58,7 +58,7 @@ struct Follower {
 
 impl<'a> ExactClusters<'a> {
     /// Before any mode is unstable.
-    pub(crate) fn new(spectrum: &'a Spectrum) -> Self {
+    pub(crate) fn new(spectrum: &'a RealModes<'a>) -> Self {
         let clusters = Arc::new(Partition::one_cluster(spectrum.eigenvectors[0].len()));
         let followers =
             followers(&clusters).map(|(node, first)| Follower { node, first, square: 0.0 });

@@ -2,7 +2,7 @@
 //! equitable refinement of the state does not split it; approximate otherwise, with how far it is from
 //! both and how many exact clusters it holds.
 
-use spectra::Spectrum;
+use spectra::{RealModes, Spectrum};
 use sprs::CsMatViewI;
 
 use crate::spread::{Spread, largest_distance, spreads};
@@ -109,6 +109,7 @@ impl StateLabels {
         rule: ClusterRule,
         tolerance: f64,
     ) -> Result<Self, ClusteringError> {
+        let spectrum = &spectrum.real_modes();
         let partition = &state.clusters;
         let equitability = equitable(matrix, partition, tolerance)?;
         let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
@@ -176,7 +177,7 @@ impl State {
 /// Spreads from the node that is farthest from the first, where these are larger.
 fn widest(
     spreads: Vec<Spread>,
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     partition: &Partition,
     sets: &[&[usize]],
 ) -> Result<Vec<Spread>, ClusteringError> {
@@ -209,10 +210,10 @@ fn parts(state: &State) -> Vec<Parts> {
 }
 
 /// The largest tolerance of any of these sets of modes.
-fn largest_tolerance(spectrum: &Spectrum, sets: &[&[usize]]) -> Result<f64, ClusteringError> {
+fn largest_tolerance(spectrum: &RealModes<'_>, sets: &[&[usize]]) -> Result<f64, ClusteringError> {
     let mut largest = 0.0f64;
     for modes in sets {
-        let chosen = crate::distance::chosen_eigenspaces(spectrum, modes)?;
+        let chosen = crate::modes::chosen_eigenspaces(spectrum, modes)?;
         largest = largest.max(exact_tolerance(spectrum, &chosen));
     }
     Ok(largest)

@@ -24,6 +24,7 @@ mod label;
 mod linkage;
 mod links;
 mod metric;
+mod modes;
 mod near_pairs;
 mod partition;
 mod refinement;

@@ -16,11 +16,11 @@
 
 use std::ops::Range;
 
-use spectra::Spectrum;
+use spectra::RealModes;
 
 use crate::disjoint_sets::DisjointSetFamilies;
-use crate::distance::{check_threshold, chosen_eigenspaces, transverse};
 use crate::metric::Block;
+use crate::modes::{check_threshold, chosen_eigenspaces, transverse};
 use crate::{ClusteringError, EigenvectorDistance, Partition, mean_over_bases};
 
 /// Nodes side by side in one panel.
@@ -39,7 +39,7 @@ const STEPS: usize = 8;
 /// # Errors
 /// Those of [`EigenvectorDistance::new`] and [`EigenvectorDistance::clusters_within`].
 pub(crate) fn clusters_of_each(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     threshold: f64,
     progress: &dyn Fn(u64),
@@ -50,7 +50,7 @@ pub(crate) fn clusters_of_each(
     let mut work = pass / STEPS;
     let mut found = Vec::new();
     for modes in sets {
-        let distance = EigenvectorDistance::new(spectrum, modes)?;
+        let distance = EigenvectorDistance::of(spectrum, modes)?;
         let Some(clusters) = distance.clusters_with_work(threshold, &mut work)? else { break };
         found.push(clusters);
         progress(1);
@@ -65,7 +65,7 @@ pub(crate) fn clusters_of_each(
 
 /// The same without a look at the cost.
 fn in_one_pass(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     threshold: f64,
 ) -> Result<Vec<Partition>, ClusteringError> {
@@ -150,7 +150,7 @@ fn link(
 
 /// The unstable eigenspaces of all sets, with the components of eight nodes side by side.
 struct Panels<'a> {
-    spectrum: &'a Spectrum,
+    spectrum: &'a RealModes<'a>,
     n_nodes: usize,
     /// Numbers of the eigenspaces, ascending.
     spaces: Vec<usize>,
@@ -162,7 +162,7 @@ struct Panels<'a> {
 }
 
 impl<'a> Panels<'a> {
-    fn new(spectrum: &'a Spectrum, chosen: &[Vec<usize>]) -> Self {
+    fn new(spectrum: &'a RealModes<'a>, chosen: &[Vec<usize>]) -> Self {
         let mut spaces = chosen.concat();
         spaces.sort_unstable();
         spaces.dedup();
@@ -229,7 +229,7 @@ impl<'a> Panels<'a> {
     }
 }
 
-fn blocks(spectrum: &Spectrum, spaces: &[usize]) -> Vec<Block> {
+fn blocks(spectrum: &RealModes<'_>, spaces: &[usize]) -> Vec<Block> {
     let mut start = 0;
     spaces
         .iter()
@@ -259,7 +259,7 @@ fn norms(own: &[[f64; LANES]], lane: usize, others: &[[f64; LANES]]) -> [f64; LA
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use spectra::Solver;
+    use spectra::{Eigenspace, Solver, Spectrum};
 
     use super::*;
 
@@ -279,11 +279,15 @@ mod tests {
             end += d;
             end - d..end
         });
+        let eigenvalues: Vec<f64> = (0..n_modes).map(|k| -(k as f64)).collect();
         Spectrum {
-            eigenspaces: eigenspaces.collect(),
-            eigenvalues: (0..n_modes).map(|k| -(k as f64)).collect(),
-            eigenvectors,
-            residuals: vec![0.0; n_modes],
+            eigenspaces: Eigenspace::divided(
+                &eigenvalues,
+                eigenvectors,
+                &vec![0.0; n_modes],
+                &eigenspaces.collect::<Vec<_>>(),
+                f64::NEG_INFINITY,
+            ),
             tolerance: 1e-10,
             solver: Solver::Dense,
             cutoff: None,
@@ -294,8 +298,9 @@ mod tests {
 
     /// The modes of these eigenspaces.
     fn modes(spectrum: &Spectrum, is_unstable: &[bool]) -> Vec<usize> {
-        let spaces = spectrum.eigenspaces.iter().zip(is_unstable);
-        spaces.filter(|(_, unstable)| **unstable).flat_map(|(space, _)| transverse(space)).collect()
+        let spaces = spectrum.real_modes().eigenspaces.into_iter().zip(is_unstable);
+        let unstable = spaces.filter(|(_, unstable)| **unstable);
+        unstable.flat_map(|(space, _)| transverse(&space)).collect()
     }
 
     fn one_by_one(spectrum: &Spectrum, sets: &[&[usize]], threshold: f64) -> Vec<Partition> {
@@ -313,7 +318,7 @@ mod tests {
         for (threshold, expected) in
             [(0.2499, [3, 3, 3]), (0.25, [2, 3, 3]), (0.375, [2, 2, 3]), (0.5, [2, 2, 2])]
         {
-            let found = in_one_pass(&spectrum, &sets, threshold).unwrap();
+            let found = in_one_pass(&spectrum.real_modes(), &sets, threshold).unwrap();
             assert_eq!(found.iter().map(Partition::n_clusters).collect::<Vec<_>>(), expected);
         }
     }
@@ -321,7 +326,7 @@ mod tests {
     #[test]
     fn no_unstable_mode_makes_one_cluster() {
         let spectrum = spectrum(20, &[1, 2], &[0.0, 1.0]);
-        let found = in_one_pass(&spectrum, &[&[], &[1, 2]], 0.0).unwrap();
+        let found = in_one_pass(&spectrum.real_modes(), &[&[], &[1, 2]], 0.0).unwrap();
         assert_eq!((found[0].n_clusters(), found[1].n_clusters()), (1, 2));
     }
 
@@ -338,8 +343,8 @@ mod tests {
             let sets: Vec<_> = unstable.iter().map(|u| modes(&spectrum, u)).collect();
             let sets: Vec<&[usize]> = sets.iter().map(|modes| &modes[..]).collect();
             let expected = one_by_one(&spectrum, &sets, threshold);
-            prop_assert_eq!(&in_one_pass(&spectrum, &sets, threshold).unwrap(), &expected);
-            prop_assert_eq!(&clusters_of_each(&spectrum, &sets, threshold, &|_| {}).unwrap(), &expected);
+            prop_assert_eq!(&in_one_pass(&spectrum.real_modes(), &sets, threshold).unwrap(), &expected);
+            prop_assert_eq!(&clusters_of_each(&spectrum.real_modes(), &sets, threshold, &|_| {}).unwrap(), &expected);
         }
 
         // Components in tenths round in every sum, and distances often equal the threshold but
@@ -358,7 +363,7 @@ mod tests {
             let sets: Vec<&[usize]> = sets.iter().map(|modes| &modes[..]).collect();
             let threshold = f64::from(threshold) / 10.0;
             let expected = one_by_one(&spectrum, &sets, threshold);
-            prop_assert_eq!(in_one_pass(&spectrum, &sets, threshold).unwrap(), expected);
+            prop_assert_eq!(in_one_pass(&spectrum.real_modes(), &sets, threshold).unwrap(), expected);
         }
     }
 }

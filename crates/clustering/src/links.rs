@@ -36,6 +36,7 @@ pub fn hold_against_links(
     rule: ClusterRule,
     tolerance: f64,
 ) -> Result<(), ClusteringError> {
+    let spectrum = &spectrum.real_modes();
     let mut refiner = Refiner::new(matrix, tolerance)?;
     // The last state as it was, and as it is.
     let mut last: Option<(State, State)> = None;

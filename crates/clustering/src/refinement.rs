@@ -25,8 +25,8 @@
 use sprs::CsMatViewI;
 
 use crate::cell_list::CellList;
-use crate::distance::check_threshold;
 use crate::equitability::check_weights;
+use crate::modes::check_threshold;
 use crate::{ClusteringError, Partition};
 
 /// A sum of weights, and that of their moduli.

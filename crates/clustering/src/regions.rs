@@ -17,7 +17,7 @@
 //! Source: Fan, Wang & Wang (2023), Sec. III C.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::distance::check_threshold;
+use crate::modes::check_threshold;
 use crate::{ClusteringError, Partition, adjusted_rand_index};
 
 /// Mean distances within and between regions.

@@ -6,10 +6,10 @@
 //! Distances are pseudometrics: no two nodes are further apart than twice the largest distance from
 //! one of them.
 
-use spectra::Spectrum;
+use spectra::RealModes;
 
-use crate::distance::{chosen_eigenspaces, transverse};
 use crate::exact::are_among;
+use crate::modes::{chosen_eigenspaces, transverse};
 use crate::tolerance::{check_tolerance, exact_tolerance};
 use crate::{ClusteringError, Partition, mean_over_bases};
 
@@ -32,7 +32,7 @@ pub(crate) struct Spread {
 /// # Errors
 /// Those of [`crate::EigenvectorDistance::new`] for each of the sets.
 pub(crate) fn spreads(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     partition: &Partition,
     from: &[usize],
     sets: &[&[usize]],
@@ -61,7 +61,7 @@ pub(crate) fn spreads(
 /// # Errors
 /// Those of [`spreads`].
 pub(crate) fn largest_distance(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     nodes: &[usize],
     sets: &[&[usize]],
 ) -> Result<f64, ClusteringError> {
@@ -80,7 +80,7 @@ pub(crate) fn largest_distance(
 
 /// Shows every pair under every set, with its δe and whether that is rounding.
 fn over_sets(
-    spectrum: &Spectrum,
+    spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     n_nodes: usize,
     pairs: &mut [Pair],
@@ -121,12 +121,12 @@ struct Pair {
 }
 
 /// Adds the part of one eigenspace to all pairs.
-fn add(spectrum: &Spectrum, space: usize, pairs: &mut [Pair]) {
+fn add(spectrum: &RealModes<'_>, space: usize, pairs: &mut [Pair]) {
     let modes = spectrum.eigenspaces[space].clone();
     let factor = mean_over_bases(transverse(&modes).len());
     let vectors = &spectrum.eigenvectors[modes];
     for pair in pairs {
-        let difference = |v: &Vec<f64>| v[pair.node] - v[pair.from];
+        let difference = |v: &&[f64]| v[pair.node] - v[pair.from];
         let norm = match vectors {
             [v] => difference(v).abs(),
             _ => vectors.iter().map(|v| difference(v).powi(2)).sum::<f64>().sqrt(),

@@ -4,10 +4,10 @@
 //! gap the distance of its eigenvalues to the others (Davis & Kahan, SIAM J. Numer. Anal. 7, 1
 //! (1970)), and ‖e_i − e_j‖ = √2.
 
-use spectra::Spectrum;
+use spectra::RealModes;
 
 use crate::ClusteringError;
-use crate::distance::transverse;
+use crate::modes::transverse;
 
 /// Below this, components are equal whatever the residuals say: no solver in double precision is
 /// more accurate.
@@ -24,7 +24,7 @@ const SMALLEST_GAP: f64 = 1e-4;
 const LARGEST_UNCERTAINTY: f64 = 1e-3;
 
 /// [`crate::EigenvectorDistance::exact_tolerance`] for these eigenspaces.
-pub(crate) fn exact_tolerance(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
+pub(crate) fn exact_tolerance(spectrum: &RealModes<'_>, chosen: &[usize]) -> f64 {
     let spaces = &spectrum.eigenspaces;
     let residual = chosen
         .iter()
@@ -40,7 +40,7 @@ pub(crate) fn exact_tolerance(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
 
 /// Distance of the chosen eigenvalues to the other transverse ones; zero where it is unknown, with
 /// the next eigenvalue not computed, and infinite where there are no others. `chosen` ascends.
-fn gap(spectrum: &Spectrum, chosen: &[usize]) -> f64 {
+fn gap(spectrum: &RealModes<'_>, chosen: &[usize]) -> f64 {
     let spaces = &spectrum.eigenspaces;
     let is_partial = spectrum.eigenvalues.len() < spectrum.eigenvectors[0].len();
     let is_chosen = |space: usize| chosen.binary_search(&space).is_ok();

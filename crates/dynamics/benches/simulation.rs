@@ -56,7 +56,7 @@ fn time_run(criterion: &mut Criterion, name: &str, simulation: &Simulation<'_>, 
     let mut group = criterion.benchmark_group(name);
     group.throughput(Throughput::Elements(node_steps as u64 * simulation.schedule.steps()));
     group.bench_function(lanes.to_string(), |bencher| {
-        bencher.iter(|| simulation.run(&replicas, &|_| ()).expect("the schedule is sound"));
+        bencher.iter(|| simulation.run(&replicas, dynamics::QUIET).expect("the schedule is sound"));
     });
 }
 
@@ -87,7 +87,8 @@ fn msf(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("msf/hindmarsh_rose");
     group.throughput(Throughput::Elements(tangents.len() as u64 * times.steps()));
     group.bench_function("121", |bencher| {
-        bencher.iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, &|_| ()));
+        bencher
+            .iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, dynamics::QUIET));
     });
 }
 

@@ -7,7 +7,7 @@ use crate::kernel::Network;
 use crate::kicks::Kicks;
 use crate::links::Links;
 use crate::observables::ErrorSums;
-use crate::stage::TILE;
+use crate::tile::TILE;
 use crate::{Next, Observer, Outcome, Simulation, Snapshot, Start};
 
 /// Numbers of lanes, and what a step of so many costs beside that of a single one: measured on

@@ -6,7 +6,7 @@
 use crate::Lanes;
 use crate::aligned::Aligned;
 use crate::block_means::BlockMeans;
-use crate::stage::TILE as WIDTH;
+use crate::tile::TILE as WIDTH;
 
 /// Samples that wait together: their differences at one run of numbers fit the first cache.
 pub(crate) const SAMPLES: usize = 32;

@@ -2,6 +2,10 @@
 
 use thiserror::Error;
 
+/// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
+/// below 10³, in the units of their equations.
+pub const ESCAPE_RADIUS: f64 = 1e6;
+
 use crate::statistics::BLOCKS;
 
 /// Why a simulation or an exponent could not be computed.
@@ -38,8 +42,8 @@ pub enum DynamicsError {
         /// Model time at which it was seen.
         time: f64,
     },
-    /// The observer wanted the simulation to stop.
-    #[error("the simulation was stopped before its end")]
+    /// The observer, or whoever is told of progress, wanted to stop.
+    #[error("the work was stopped before its end")]
     Cancelled,
 }
 

@@ -1,5 +1,6 @@
 //! An isolated oscillator, ẋ = F(x), followed step by step with RK4.
 
+use crate::integrators::rk4;
 use crate::random::initial_states;
 use crate::{DynamicsError, ESCAPE_RADIUS, NodeDynamics};
 
@@ -25,7 +26,10 @@ impl<'a> IsolatedOrbit<'a> {
 
     /// Goes on by one step, wherever that leads.
     pub(crate) fn advance(&mut self) {
-        self.dynamics.advance(&mut self.state, self.step);
+        match self.dynamics.fused() {
+            Some(fused) => fused.advance(&mut self.state, self.step),
+            None => rk4::advance(self.dynamics, &mut self.state, self.step),
+        }
         self.steps += 1;
     }
 

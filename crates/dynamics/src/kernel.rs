@@ -15,7 +15,8 @@ use crate::coupling::Gain;
 use crate::links::Links;
 use crate::random::initial_states;
 use crate::row_sums::RowSums;
-use crate::stage::{POINTS, RUNS, Stage, Strength, TILE, Tile};
+use crate::stage::{POINTS, RUNS, Stage, Strength, by_flow};
+use crate::tile::{TILE, Tile};
 use crate::{Coupling, ESCAPE_RADIUS, InstructionSet, NodeDynamics, Replica};
 
 /// A network of `L` replicas, its rows summed `R` side by side.
@@ -81,6 +82,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         let Self { dynamics, instruction_set, coupling, strengths, rows, points, inputs, slopes } =
             self;
         let mut points: Vec<&mut [Tile]> = points.iter_mut().map(runs_mut).collect();
+        let fused = dynamics.fused();
         for point in (0..n_steps).flat_map(|_| 0..POINTS) {
             for &from in coupling.channels() {
                 let signals = &mut points[point * n_components + from];
@@ -104,7 +106,10 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                     runs: start..end,
                     slopes,
                 };
-                dynamics.stage(*instruction_set, &mut stage);
+                match fused {
+                    Some(fused) => fused.stage(*instruction_set, &mut stage),
+                    None => by_flow::stage(*dynamics, *instruction_set, &mut stage),
+                }
                 start = end;
             }
         }

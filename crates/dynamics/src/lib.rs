@@ -28,8 +28,10 @@ mod observables;
 mod observer;
 mod oscillator;
 mod oscillators;
+mod progress;
 mod random;
 mod row_sums;
+mod run;
 mod scalar;
 mod settled;
 mod shared_sums;
@@ -37,31 +39,25 @@ mod simulation;
 mod slow_time;
 mod stage;
 mod statistics;
+mod tile;
 
 pub use coupling::{Coupling, Gain};
-pub use error::DynamicsError;
+pub use error::{DynamicsError, ESCAPE_RADIUS};
 pub use instruction_set::{InstructionSet, Work};
 pub use integrators::{Adaptive, AdaptiveOrder, Method};
 pub use linear_step::{LinearSteps, StepVerdict};
+pub use links::SparseMatrix;
 pub use native::Native;
-pub use node::{Linearised, LinearisedMut, MAX_COMPONENTS, NodeDynamics};
+pub use node::{Fused, Linearised, LinearisedMut, NodeDynamics};
 pub use observables::{Errors, Observables, pair_index};
 pub use observer::{Next, Observer, Snapshot, Start};
 pub use oscillator::Oscillator;
 pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
+pub use progress::{Progress, QUIET};
 pub use scalar::{Dual, Lanes, Scalar};
 pub use settled::settled;
 pub use simulation::{Outcome, ROUNDING_KICK, Replica, Run, Schedule, Simulation};
 pub use slow_time::slow_time;
 pub use stage::Stage;
 pub use statistics::{BLOCKS, Estimate};
-
-/// Sparse matrix in compressed-row form with 32-bit column indices.
-pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
-
-/// Called with the number of steps done since the last call, from any thread.
-pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
-
-/// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
-/// below 10³, in the units of their equations.
-pub const ESCAPE_RADIUS: f64 = 1e6;
+pub use tile::MAX_COMPONENTS;

@@ -7,8 +7,10 @@
 //! Terms are added in ascending order of their number. All this depends on the matrix alone: it is
 //! one fixed definition, whatever the number of lanes.
 
-use crate::SparseMatrix;
 use crate::shared_sums::share;
+
+/// Sparse matrix in compressed-row form with 32-bit column indices.
+pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
 
 /// The rows of a coupling matrix, taken apart.
 pub(crate) struct Links {

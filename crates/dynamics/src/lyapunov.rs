@@ -7,54 +7,21 @@
 //! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
 //! the logarithms of their growth averaged.
 
-mod master_equation;
+mod growth;
+pub(crate) mod master_equation;
 mod tiles;
 
 use rayon::prelude::*;
 
-pub(crate) use master_equation::fused;
+use growth::{Plan, estimates};
+pub use growth::{Tangent, Tangents, Times};
 use tiles::Tiles;
-pub(crate) use tiles::by_flow;
 
-use crate::error::{check_times, whole};
-use crate::statistics::BLOCKS;
-use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress};
-
-/// The most tangents advanced together.
-const MAX_LANES: usize = 16;
+use crate::tile::TILE;
+use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress, QUIET};
 
 /// From this many tangents on an orbit is worth computing for them alone, as a plain number.
 const SHARED_ORBIT: usize = 4;
-
-/// Times of an average over an orbit, in model time units, with a fixed RK4 step.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Times {
-    /// Step of the integrator.
-    pub step: f64,
-    /// Time in which the orbit settles and the tangent turns into its direction of fastest growth.
-    pub transient: f64,
-    /// Time of the average, rounded to [`BLOCKS`] blocks of whole intervals.
-    pub average: f64,
-    /// Interval between renormalisations.
-    pub renormalise: f64,
-}
-
-/// One exponent to compute: σ of the master equation, and the seed of the orbit's initial state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tangent {
-    /// Generic coupling strength σ = −ελ.
-    pub sigma: f64,
-    /// Seed of s(0).
-    pub seed: u64,
-}
-
-/// Tangents of the master equation that are advanced together, at most sixteen.
-pub struct Tangents<'a> {
-    coupling: &'a Coupling,
-    plan: &'a Plan,
-    tangents: &'a [Tangent],
-    progress: Progress<'a>,
-}
 
 /// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
 /// time, with standard errors over [`BLOCKS`] blocks. Tangents with one seed have one orbit, and are
@@ -101,13 +68,16 @@ pub fn master_exponents_with(
     let alone = alone.concat();
     let batches: Vec<&[usize]> = shared
         .iter()
-        .flat_map(|of_one_seed| of_one_seed.chunks(MAX_LANES))
-        .chain(alone.chunks(MAX_LANES))
+        .flat_map(|of_one_seed| of_one_seed.chunks(TILE))
+        .chain(alone.chunks(TILE))
         .collect();
     let run = |&batch: &&[usize]| {
         let tangents: Vec<Tangent> = batch.iter().map(|&index| tangents[index]).collect();
         let tangents = Tangents { coupling, plan: &plan, tangents: &tangents, progress };
-        dynamics.exponents(instruction_set, &tangents)
+        match dynamics.fused() {
+            Some(fused) => fused.exponents(instruction_set, &tangents),
+            None => tiles::exponents(dynamics, instruction_set, &tangents),
+        }
     };
     let exponents: Vec<_> =
         batches.par_iter().with_max_len(1).map(run).collect::<Result<_, _>>()?;
@@ -132,102 +102,7 @@ pub fn spectrum(
 ) -> Result<Vec<Estimate>, DynamicsError> {
     let plan = Plan::new(times)?;
     let mut tiles = Tiles::axes(dynamics, InstructionSet::best(), seed);
-    Ok(estimates(&plan.block_means(&mut tiles, |_| ())?, dynamics.start().len()))
-}
-
-impl Times {
-    /// Steps of one tangent from its start to its end.
-    pub fn steps(&self) -> u64 {
-        whole((self.transient + self.average) / self.step)
-    }
-}
-
-/// Times in whole steps.
-struct Plan {
-    step: f64,
-    steps_per_interval: u64,
-    transient_intervals: u64,
-    intervals_per_block: u64,
-}
-
-impl Plan {
-    fn new(times: &Times) -> Result<Self, DynamicsError> {
-        let steps_per_interval = (times.renormalise / times.step).round().max(1.0);
-        let interval = steps_per_interval * times.step;
-        let named = [
-            ("transient", times.transient),
-            ("average", times.average),
-            ("renormalise", times.renormalise),
-        ];
-        check_times(times.step, &named, times.average / interval)?;
-        Ok(Self {
-            step: times.step,
-            steps_per_interval: whole(steps_per_interval),
-            transient_intervals: whole(times.transient / interval),
-            intervals_per_block: whole(times.average / interval / BLOCKS as f64),
-        })
-    }
-
-    fn interval(&self) -> f64 {
-        self.steps_per_interval as f64 * self.step
-    }
-
-    /// Runs tangents through the transient and all blocks, scaled anew after every interval; returns
-    /// block means of the exponents, `[block][lane]`.
-    #[inline(always)]
-    fn block_means<const L: usize>(
-        &self,
-        tangents: &mut impl Growing<L>,
-        progress: impl Fn(u64),
-    ) -> Result<Vec<[f64; L]>, DynamicsError> {
-        let in_blocks = self.intervals_per_block * BLOCKS as u64;
-        let mut blocks = Vec::with_capacity(BLOCKS);
-        let mut growth = [0.0; L];
-        for interval in 1..=self.transient_intervals + in_blocks {
-            tangents.advance(self.steps_per_interval, self.step);
-            if !tangents.is_bounded() {
-                return Err(DynamicsError::Escaped { time: interval as f64 * self.interval() });
-            }
-            for (sum, log) in growth.iter_mut().zip(tangents.renormalise()) {
-                *sum += log;
-            }
-            progress(self.steps_per_interval);
-            let Some(averaged) = interval.checked_sub(self.transient_intervals) else { continue };
-            if averaged.is_multiple_of(self.intervals_per_block) {
-                let time = self.intervals_per_block as f64 * self.interval();
-                // At its end the transient has been one block, and is forgotten.
-                if averaged > 0 {
-                    blocks.push(growth.map(|sum| sum / time));
-                }
-                growth = [0.0; L];
-            }
-        }
-        Ok(blocks)
-    }
-}
-
-/// Tangents that grow along their orbits, in `L` lanes.
-trait Growing<const L: usize> {
-    /// Takes orbits and tangents some steps h forward.
-    fn advance(&mut self, n_steps: u64, h: f64);
-
-    /// Whether every orbit is within [`crate::ESCAPE_RADIUS`]; a NaN is not.
-    fn is_bounded(&self) -> bool;
-
-    /// Scales the tangents to unit length, or makes them orthonormal; gives the logarithms of their
-    /// growth.
-    fn renormalise(&mut self) -> [f64; L];
-}
-
-/// The logarithm of a length, rounded alike on every machine as the platform's own need not be.
-#[inline(always)]
-fn log(length: f64) -> f64 {
-    libm::log(length)
-}
-
-fn estimates<const L: usize>(blocks: &[[f64; L]], lanes: usize) -> Vec<Estimate> {
-    let of_lane = |lane: usize| blocks.iter().map(|block| block[lane]).collect::<Vec<_>>();
-    (0..lanes).map(|lane| Estimate::from_independent(&of_lane(lane))).collect()
+    Ok(estimates(&plan.block_means(&mut tiles, QUIET)?, dynamics.start().len()))
 }
 
 #[cfg(test)]
@@ -236,7 +111,6 @@ mod tests {
     use crate::{Lorenz, Model, Rossler};
 
     const TIMES: Times = Times { step: 0.01, transient: 100.0, average: 5000.0, renormalise: 0.5 };
-    const QUIET: Progress<'static> = &|_| ();
 
     fn within(estimate: Estimate, expected: f64, slack: f64) {
         let allowed = 4.0 * estimate.standard_error + slack;

@@ -4,11 +4,11 @@ use std::fmt;
 
 use crate::instruction_set::Work;
 use crate::integrators::rk4::{self, Flow};
-use crate::lyapunov::{self, Tangents};
+use crate::lyapunov::{Tangents, master_equation};
 use crate::stage::{self, Stage};
 use crate::{
-    Dual, DynamicsError, Estimate, InstructionSet, Lanes, Linearised, LinearisedMut, NodeDynamics,
-    Oscillator, Scalar,
+    Dual, DynamicsError, Estimate, Fused, InstructionSet, Lanes, Linearised, LinearisedMut,
+    NodeDynamics, Oscillator, Scalar,
 };
 
 /// Numbers on which equations are evaluated together.
@@ -43,13 +43,19 @@ impl<O: Oscillator<D> + fmt::Debug, const D: usize> NodeDynamics for Native<O, D
         set.run(LinearisedEverywhere::<O, D> { oscillator: &self.0, value, tangent, slope });
     }
 
+    fn fused(&self) -> Option<&dyn Fused> {
+        Some(self)
+    }
+}
+
+impl<O: Oscillator<D>, const D: usize> Fused for Native<O, D> {
     fn advance(&self, state: &mut [f64], h: f64) {
         let x: [f64; D] = std::array::from_fn(|c| state[c]);
         state.copy_from_slice(&rk4::step(&Isolated(&self.0), x, h));
     }
 
     fn stage(&self, set: InstructionSet, stage: &mut Stage<'_, '_>) {
-        stage::fused(&self.0, set, stage);
+        stage::fused::stage(&self.0, set, stage);
     }
 
     fn exponents(
@@ -57,7 +63,7 @@ impl<O: Oscillator<D> + fmt::Debug, const D: usize> NodeDynamics for Native<O, D
         set: InstructionSet,
         tangents: &Tangents<'_>,
     ) -> Result<Vec<Estimate>, DynamicsError> {
-        lyapunov::fused(self.0, set, tangents)
+        master_equation::exponents(self.0, set, tangents)
     }
 }
 

@@ -6,21 +6,17 @@
 
 use std::fmt;
 
-use crate::integrators::rk4;
-use crate::lyapunov::{self, Tangents};
-use crate::stage::{self, Stage};
+use crate::lyapunov::Tangents;
+use crate::stage::Stage;
 use crate::{DynamicsError, Estimate, InstructionSet};
-
-/// Components that a node can have at the most.
-pub const MAX_COMPONENTS: usize = 16;
 
 /// Node dynamics F, chosen at run time: a [`crate::Native`] oscillator, a [`crate::Model`], or any other
 /// evaluation of equations.
 ///
-/// [`Self::flow`] and [`Self::tangent_flow`] say all; the other methods are made of these, and stand
-/// here so that compiled equations can be faster. They must give the same bits.
+/// [`Self::flow`] and [`Self::tangent_flow`] say all; [`Self::fused`] is for equations that can be
+/// faster than these.
 pub trait NodeDynamics: fmt::Debug + Send + Sync {
-    /// Names of the components, in order; at most [`MAX_COMPONENTS`].
+    /// Names of the components, in order; at most [`crate::MAX_COMPONENTS`].
     fn components(&self) -> Vec<&str>;
 
     /// A box `[from, to]` for each component, from which initial states are drawn uniformly: inside
@@ -33,15 +29,20 @@ pub trait NodeDynamics: fmt::Debug + Send + Sync {
     /// F(x) and DF(x) δ of every number, in the same layout.
     fn tangent_flow(&self, set: InstructionSet, at: Linearised<'_>, slope: LinearisedMut<'_, '_>);
 
-    /// Takes one state a step of RK4 forward.
-    fn advance(&self, state: &mut [f64], h: f64) {
-        rk4::advance(self, state, h);
+    /// The same equations without what goes through memory, where there are such.
+    fn fused(&self) -> Option<&dyn Fused> {
+        None
     }
+}
+
+/// What compiled equations do in one go. It gives the bits that [`NodeDynamics::flow`] and
+/// [`NodeDynamics::tangent_flow`] give.
+pub trait Fused {
+    /// Takes one state a step of RK4 forward.
+    fn advance(&self, state: &mut [f64], h: f64);
 
     /// One stage of the step of a network.
-    fn stage(&self, set: InstructionSet, stage: &mut Stage<'_, '_>) {
-        stage::by_flow(self, set, stage);
-    }
+    fn stage(&self, set: InstructionSet, stage: &mut Stage<'_, '_>);
 
     /// Largest Lyapunov exponents of some tangents of the master equation.
     ///
@@ -51,9 +52,7 @@ pub trait NodeDynamics: fmt::Debug + Send + Sync {
         &self,
         set: InstructionSet,
         tangents: &Tangents<'_>,
-    ) -> Result<Vec<Estimate>, DynamicsError> {
-        lyapunov::by_flow(self, set, tangents)
-    }
+    ) -> Result<Vec<Estimate>, DynamicsError>;
 }
 
 /// States with a tangent each, component by component.

@@ -86,7 +86,6 @@ pub(crate) struct Counting<'a>(pub(crate) Progress<'a>);
 
 impl Observer for Counting<'_> {
     fn advanced(&self, _: &[usize], steps: u64) -> Next {
-        (self.0)(steps);
-        Next::GoOn
+        if (self.0)(steps).is_break() { Next::Stop } else { Next::GoOn }
     }
 }

@@ -9,7 +9,7 @@
 
 use crate::Lanes;
 use crate::links::{Links, Row};
-use crate::stage::{TILE, Tile};
+use crate::tile::{TILE, Tile};
 
 /// Nodes that are placed in order of their number of terms.
 const WINDOW: usize = 256;

@@ -57,7 +57,7 @@ fn replicas(epsilons: &[f64], seeds: u64) -> Vec<Replica> {
 }
 
 fn run(simulation: &Simulation<'_>, replicas: &[Replica]) -> Vec<Run> {
-    simulation.run(replicas, &|_| ()).expect("the schedule is sound")
+    simulation.run(replicas, dynamics::QUIET).expect("the schedule is sound")
 }
 
 fn errors(run: &Run) -> &Errors {
@@ -270,7 +270,11 @@ fn progress_counts_every_step_of_every_replica() {
     let simulation = lorenz_network(&matrix);
     let steps = AtomicU64::new(0);
     let replicas = replicas(&[1.0, 2.0, 3.0], 1);
-    simulation.run(&replicas, &|done| _ = steps.fetch_add(done, Ordering::Relaxed)).unwrap();
+    let count = |done| {
+        steps.fetch_add(done, Ordering::Relaxed);
+        std::ops::ControlFlow::Continue(())
+    };
+    simulation.run(&replicas, &count).unwrap();
     assert_eq!(steps.into_inner(), 3 * simulation.schedule.steps());
 }
 
@@ -279,7 +283,7 @@ fn schedules_that_make_no_sense_are_refused() {
     let matrix = six_node();
     let refused = |schedule| {
         let simulation = Simulation { schedule, ..lorenz_network(&matrix) };
-        simulation.run(&replicas(&[1.0], 1), &|_| ()).unwrap_err()
+        simulation.run(&replicas(&[1.0], 1), dynamics::QUIET).unwrap_err()
     };
     let step = refused(Schedule { step: 0.0, ..SCHEDULE });
     assert_eq!(step, DynamicsError::BadStep { step: 0.0 });

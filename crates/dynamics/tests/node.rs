@@ -80,7 +80,7 @@ fn simulate(
     };
     let replicas: Vec<Replica> =
         epsilon.iter().map(|&epsilon| Replica { epsilon, seed: 3 }).collect();
-    let runs = simulation.run(&replicas, &|_| ()).expect("the schedule is sound");
+    let runs = simulation.run(&replicas, dynamics::QUIET).expect("the schedule is sound");
     let errors = |outcome| match outcome {
         Outcome::Completed(errors) => errors,
         other => panic!("{other:?}"),
@@ -107,7 +107,7 @@ fn equations_chosen_at_run_time_give_the_bits_of_compiled_ones() {
                     .map(|k| Tangent { sigma: 0.2 * k as f64, seed: k / 8 })
                     .collect();
                 let of = |dynamics: &dyn NodeDynamics| {
-                    master_exponents(dynamics, &coupling, &times, &tangents, &|_| ()).unwrap()
+                    master_exponents(dynamics, &coupling, &times, &tangents, dynamics::QUIET).unwrap()
                 };
                 assert_eq!(of(&compiled), of(&ByFlow(compiled)), "{compiled:?}");
             }
@@ -125,7 +125,7 @@ fn coupling_all_components_alike_takes_sigma_from_every_exponent() {
     let times = Times { step: 0.005, transient: 20.0, average: 100.0, renormalise: 0.5 };
     let tangents = [0.0, 0.5, 2.0, 7.0].map(|sigma| Tangent { sigma, seed: 1 });
     let exponents =
-        master_exponents(&lorenz, &Coupling::matrix(&identity), &times, &tangents, &|_| ())
+        master_exponents(&lorenz, &Coupling::matrix(&identity), &times, &tangents, dynamics::QUIET)
             .unwrap();
     for (exponent, Tangent { sigma, .. }) in exponents.iter().zip(tangents) {
         let expected = exponents[0].mean - sigma;

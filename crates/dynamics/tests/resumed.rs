@@ -132,7 +132,7 @@ fn interrupted_runs_go_on_to_the_bits_of_undisturbed_ones_in_any_lanes_and_threa
         let simulation = lorenz(&matrix);
         let replicas = replicas(21);
         let undisturbed: Vec<Outcome> = simulation
-            .run(&replicas, &|_| ())
+            .run(&replicas, dynamics::QUIET)
             .unwrap()
             .into_iter()
             .map(|run| run.outcome)
@@ -148,8 +148,12 @@ fn interrupted_runs_of_the_adaptive_integrator_go_on_to_the_same_bits() {
     let matrix = ring(5, |_| 1.0);
     let simulation = Simulation { method: dopri5(), ..lorenz(&matrix) };
     let replicas = replicas(4);
-    let undisturbed: Vec<Outcome> =
-        simulation.run(&replicas, &|_| ()).unwrap().into_iter().map(|run| run.outcome).collect();
+    let undisturbed: Vec<Outcome> = simulation
+        .run(&replicas, dynamics::QUIET)
+        .unwrap()
+        .into_iter()
+        .map(|run| run.outcome)
+        .collect();
     let (outcomes, interruptions) = interrupted(&simulation, &replicas);
     assert!(interruptions > 4, "only {interruptions} interruptions");
     assert_eq!(outcomes, undisturbed);
@@ -265,10 +269,10 @@ fn a_coupling_that_cannot_be_integrated_is_an_outcome_and_leaves_the_others_alon
         ..lorenz(&matrix)
     };
     let replica = |epsilon| Replica { epsilon, seed: 1 };
-    let runs = simulation.run(&[5.0, 1e7, 10.0].map(replica), &|_| ()).unwrap();
+    let runs = simulation.run(&[5.0, 1e7, 10.0].map(replica), dynamics::QUIET).unwrap();
     for (run, epsilon) in [(&runs[0], 5.0), (&runs[2], 10.0)] {
         assert!(matches!(run.outcome, Outcome::Completed(_)), "{run:?}");
-        assert_eq!(*run, simulation.run(&[replica(epsilon)], &|_| ()).unwrap()[0]);
+        assert_eq!(*run, simulation.run(&[replica(epsilon)], dynamics::QUIET).unwrap()[0]);
     }
     match &runs[1].outcome {
         Outcome::Failed { time, reason } => {

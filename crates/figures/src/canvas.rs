@@ -327,12 +327,9 @@ impl Canvas {
     }
 
     // The writer escapes `<` only, and XML has no place for most control characters, nor for two more.
-    // Those that turn the direction of writing would turn what follows as well.
+    // Characters that turn the direction of the text after them would make it read as something else.
     fn text(&mut self, text: &str) {
-        let turns = |c: char| {
-            matches!(c, '\u{61c}' | '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}'
-                | '\u{2066}'..='\u{2069}')
-        };
+        let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         let is_shown =
             |c: char| !c.is_control() && !turns(c) && !matches!(c, '\u{fffe}' | '\u{ffff}');
         let shown: String =

@@ -171,7 +171,11 @@ impl PositionsPanel {
             }
         }
         let below = [x, y + layout.size[view.up] / 2.0 + NAME_DROP];
-        canvas.label_in(&Label::text(view.name), below, TICK_SIZE, MARKER_INK);
+        let name = Label::text(view.name);
+        // Beside another view a name has the width of its own.
+        if name.width(TICK_SIZE) <= layout.size[view.across] + GAP {
+            canvas.label_in(&name, below, TICK_SIZE, MARKER_INK);
+        }
     }
 
     /// How many nodes are in clusters, then a key: each cluster with its name, as many as there is

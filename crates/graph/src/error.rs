@@ -1,4 +1,4 @@
-//! What can be wrong with a network, with its preparation, and with the wishes for a random one.
+//! What can be wrong with a network, with a coupling matrix, with its preparation, and with the wishes for a random one.
 
 use thiserror::Error;
 
@@ -315,5 +315,45 @@ pub enum GeneratorError {
         factor: f64,
         /// Their product.
         probability: f64,
+    },
+}
+
+/// Why a matrix cannot couple anything. Rows and columns count from 0.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum CouplingError {
+    /// No rows.
+    #[error("the coupling matrix has no rows")]
+    Empty,
+    /// Rows and columns differ in number.
+    #[error("the coupling matrix has {rows} rows and {columns} columns, and is to be square")]
+    NotSquare {
+        /// Number of rows.
+        rows: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// An entry that is not a finite number.
+    #[error("the coupling matrix has {value} in row {row}, column {column} (from 0)")]
+    NotFinite {
+        /// Its row.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// A row that does not sum to zero: equal states of all nodes would not stay equal.
+    #[error(
+        "row {row} (from 0) of the coupling matrix sums to {sum}, where its entries sum to {size} in \
+         magnitude; every row is to sum to zero"
+    )]
+    RowSum {
+        /// The row.
+        row: usize,
+        /// Σ_j w_ij.
+        sum: f64,
+        /// Σ_j |w_ij|.
+        size: f64,
     },
 }

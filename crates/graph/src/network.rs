@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use crate::components::Components;
 use crate::nodes::{Group, Nodes};
 use crate::{GraphError, SparseMatrix};
 
@@ -149,7 +150,7 @@ impl Network {
 
     /// Connected components, each a sorted list of nodes, ordered by their first node.
     pub fn components(&self) -> Vec<Vec<usize>> {
-        components(&self.adjacency)
+        Components::of(&self.adjacency).nodes()
     }
 }
 
@@ -197,31 +198,6 @@ fn sort_by_column(columns: &mut [u32], values: &mut [f64], scratch: &mut Vec<(u3
     for ((column, value), entry) in columns.iter_mut().zip(values).zip(scratch) {
         (*column, *value) = *entry;
     }
-}
-
-/// Sets of nodes between which links lead, whatever their direction, in a matrix that is symmetric.
-pub(crate) fn components(symmetric: &SparseMatrix) -> Vec<Vec<usize>> {
-    let mut seen = vec![false; symmetric.rows()];
-    let mut components = Vec::new();
-    for start in 0..symmetric.rows() {
-        if std::mem::replace(&mut seen[start], true) {
-            continue;
-        }
-        let mut component = vec![start];
-        let mut next = 0;
-        while next < component.len() {
-            let row = symmetric.outer_view(component[next]).expect("a node has a row");
-            for &j in row.indices() {
-                if !std::mem::replace(&mut seen[j as usize], true) {
-                    component.push(j as usize);
-                }
-            }
-            next += 1;
-        }
-        component.sort_unstable();
-        components.push(component);
-    }
-    components
 }
 
 /// The places of the first link that repeats an earlier one, in either direction, and of that one:

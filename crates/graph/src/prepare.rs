@@ -7,7 +7,8 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use crate::network::{assemble, components};
+use crate::components::Components;
+use crate::network::assemble;
 use crate::{PrepareError, RawNetwork, SparseMatrix};
 
 /// One step of preparation.
@@ -247,7 +248,7 @@ fn linked_nodes(raw: &RawNetwork) -> Result<Vec<usize>, PrepareError> {
 
 fn largest_component(raw: &RawNetwork) -> Vec<usize> {
     let both_directions = linked_pairs(raw).flat_map(|(i, j, ..)| [(i, j, 1.0), (j, i, 1.0)]);
-    let components = components(&matrix(raw.n_nodes(), both_directions));
+    let components = Components::of(&matrix(raw.n_nodes(), both_directions)).nodes();
     let first_largest = components.into_iter().reduce(|a, b| if b.len() > a.len() { b } else { a });
     first_largest.expect("a network has a node")
 }

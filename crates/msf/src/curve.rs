@@ -6,8 +6,10 @@ use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
 use dynamics::{Coupling, Estimate, InstructionSet, NodeDynamics, Progress};
 
 use crate::attractors::{self, Attractor, Column};
+use crate::isolated::Isolated;
 use crate::step::{Step, is_certain, with_shift};
-use crate::zeros::{Finder, Refinement, Signed, Zero, sign};
+use crate::zero::Zero;
+use crate::zeros::{Finder, Refinement, Signed, sign};
 use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
@@ -52,19 +54,6 @@ impl Request {
         let halved = |first: f64| (1..=HALVINGS).rev().map(move |k| first * 0.5f64.powi(k));
         first.into_iter().flat_map(halved).chain(self.sigma.iter().copied()).collect()
     }
-}
-
-/// What the isolated oscillator does, by its largest Lyapunov exponent Λ(0).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Isolated {
-    /// Λ(0) > 0.
-    #[default]
-    Chaotic,
-    /// Λ(0) = 0 within its errors: a periodic orbit, or chaos too weak to tell.
-    Periodic,
-    /// Λ(0) < 0: it comes to rest at a fixed point. Nodes are equal there without any coupling, if all
-    /// come to the same one: [`MasterStability::rests`].
-    AtRest,
 }
 
 /// The master stability function as computed.

@@ -55,7 +55,7 @@ mod tests {
 
     fn reach_of(model: Model, from: usize, to: usize) -> f64 {
         let node = Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) };
-        reach(&node, &TIMES, 1, &|_| ()).unwrap()
+        reach(&node, &TIMES, 1, dynamics::QUIET).unwrap()
     }
 
     #[test]

@@ -25,7 +25,7 @@ fn compute(node: &Node, [from, to]: [f64; 2], points: u32, average: f64) -> Mast
         seed: 1,
         instruction_set: InstructionSet::best(),
     };
-    master_stability(node, &request, &|_| ()).expect("the request is sound")
+    master_stability(node, &request, dynamics::QUIET).expect("the request is sound")
 }
 
 fn long() -> bool {
@@ -92,7 +92,7 @@ fn quick(model: Model, pair: [usize; 2], sigma: Vec<f64>) -> MasterStability {
         seed: 1,
         instruction_set: InstructionSet::best(),
     };
-    master_stability(&node(model, pair), &request, &|_| ()).expect("the request is sound")
+    master_stability(&node(model, pair), &request, dynamics::QUIET).expect("the request is sound")
 }
 
 #[test]

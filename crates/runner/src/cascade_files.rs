@@ -7,15 +7,15 @@
 //! Source of the format: J. Felsenstein, "The Newick tree format" (1986); a branch is as long as the
 //! range of ε in which its cluster holds.
 
+use eigensync::Findings;
 use std::io::BufWriter;
 
 use clustering::{CascadeTree, ClusterRule, TreeCluster};
 
-use crate::findings::Findings;
+use crate::files::number;
 use crate::place::Folder;
 use crate::plan::Plan;
 use crate::problem::Result;
-use crate::results::number;
 
 const COLUMNS: [&str; 15] = [
     "cluster",
@@ -67,13 +67,13 @@ fn row(
     let optional = |value: Option<f64>| value.map_or_else(String::new, number);
     let states = findings.cascade[of.states.clone()].iter();
     let modes = |end: fn((usize, usize)) -> usize| states.clone().map(move |s| end(s.n_unstable));
-    let is_under_threshold = plan.rule != ClusterRule::Exact;
+    let is_under_threshold = plan.study.rule != ClusterRule::Exact;
     vec![
         cluster.to_string(),
         of.parent.map_or_else(String::new, |parent| (first + parent).to_string()),
         tree.to_string(),
         of.size.to_string(),
-        plan.network.labels()[of.first_node].clone(),
+        plan.study.network.labels()[of.first_node].clone(),
         modes(|(least, _)| least).min().unwrap_or(0).to_string(),
         number(of.epsilon.0),
         optional(of.epsilon.1),
@@ -112,7 +112,7 @@ fn write_nodes(
             .collect();
         let innermost = tree.innermost(&findings.cascade);
         let exact = exact_firsts(tree, findings, &innermost);
-        let labels = plan.network.labels();
+        let labels = plan.study.network.labels();
         for ((label, innermost), first) in labels.iter().zip(innermost).zip(exact) {
             let [cluster, splits] = innermost.map_or(["", ""], |place| {
                 let [cluster, splits] = &texts[place];

@@ -1,55 +1,33 @@
 //! What an experiment will do and cost, in words: `eigensync check`.
 
+use eigensync::{Sweep, Warning};
 use std::fmt::Write;
 
 use clustering::ClusterRule;
 use dynamics::{Adaptive, AdaptiveOrder, Method};
-use spectra::Spectrum;
 
 use crate::drawing;
 use crate::output::one_line;
-use crate::plan::{Memory, Plan, Sweep};
+use crate::plan::{Memory, Plan};
 use crate::spec::{FigureKind, MatrixKind};
-use crate::table::{four_digits, two_digits};
 use crate::trial;
-use crate::warning::Warnings;
-
-/// The largest residual, relative to the eigenvalue, that leaves this certain.
-const CERTAIN: f64 = 0.1;
 
 /// What is unusual about a network, before anything is computed.
-pub fn warn(plan: &Plan, warnings: &mut Warnings) {
-    let network = &plan.network;
+pub fn doubts(plan: &Plan) -> Vec<Warning> {
+    let network = &plan.study.network;
     let isolated = network.isolated_nodes();
-    if !isolated.is_empty() {
-        let labels: Vec<_> =
-            isolated.iter().take(5).map(|&i| network.labels()[i].as_str()).collect();
-        let more = if isolated.len() > labels.len() { ", …" } else { "" };
-        let message = format!(
-            "{} of {} nodes have no links ({}{more}); they receive no coupling",
-            isolated.len(),
-            network.n_nodes(),
-            labels.join(", ")
-        );
-        warnings.add("network.isolated_nodes", message);
+    if isolated.is_empty() {
+        return Vec::new();
     }
-}
-
-/// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
-pub fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings) {
-    let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
-    let modes = spectrum.eigenvalues.iter().enumerate().skip(n_zero);
-    let mut lost = modes.filter(|(mode, lambda)| spectrum.error(*mode) > CERTAIN * lambda.abs());
-    let Some((mode, lambda)) = lost.next() else { return };
+    let labels: Vec<_> = isolated.iter().take(5).map(|&i| network.labels()[i].as_str()).collect();
+    let more = if isolated.len() > labels.len() { ", …" } else { "" };
     let message = format!(
-        "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
-         the strongest are lost in rounding",
-        mode + 1,
-        four_digits(*lambda),
-        two_digits(spectrum.error(mode)),
-        lost.count()
+        "{} of {} nodes have no links ({}{more}); they receive no coupling",
+        isolated.len(),
+        network.n_nodes(),
+        labels.join(", ")
     );
-    warnings.add("eigenvalues", message);
+    vec![Warning { about: "network.isolated_nodes", message }]
 }
 
 /// The resolved plan and its cost.
@@ -58,7 +36,7 @@ pub fn describe(plan: &Plan) -> String {
     let mut line = |name: &str, value: String| {
         writeln!(text, "{name:<12} {}", one_line(&value)).expect("a string takes every line");
     };
-    let (network, experiment) = (&plan.network, &plan.experiment);
+    let (network, experiment) = (&plan.study.network, &plan.experiment);
     line("experiment", format!("{}: {}", plan.id, experiment.title));
     line(
         "network",
@@ -66,7 +44,7 @@ pub fn describe(plan: &Plan) -> String {
             "{} nodes, {} links, {} component(s), {} isolated",
             network.n_nodes(),
             network.n_links(),
-            plan.n_components,
+            plan.study.n_components,
             network.isolated_nodes().len()
         ),
     );
@@ -80,12 +58,12 @@ pub fn describe(plan: &Plan) -> String {
     line("coupling", format!("{matrix}; {from} into {to}"));
     line(
         "prediction",
-        match plan.rule {
+        match plan.study.rule {
             ClusterRule::Exact => "exact clusters".into(),
             ClusterRule::Threshold(threshold) => format!("clusters at the threshold {threshold}"),
         },
     );
-    let (times, sigma) = (plan.msf.times, &plan.msf.sigma);
+    let (times, sigma) = (plan.study.msf.times, &plan.study.msf.sigma);
     line(
         "msf",
         format!(
@@ -98,7 +76,7 @@ pub fn describe(plan: &Plan) -> String {
             times.average
         ),
     );
-    if let Some(sweep) = &plan.sweep {
+    if let Some(sweep) = &plan.study.sweep {
         let (schedule, epsilon) = (sweep.schedule, &sweep.epsilon);
         line(
             "sweep",
@@ -149,13 +127,13 @@ fn method(sweep: &Sweep) -> &'static str {
 fn cost(plan: &Plan) -> String {
     let threads = rayon::current_num_threads() as f64;
     let msf = trial::of_msf(plan);
-    let mut text = format!("msf {:.1e} tangent steps", plan.msf_steps() as f64);
+    let mut text = format!("msf {:.1e} tangent steps", plan.study.msf_steps() as f64);
     let (mut seconds, mut notes) = (msf.seconds, String::new());
     if msf.escaped {
         notes.push_str("; the orbit of the msf escapes at once: no time can be told");
     }
-    if let Some(sweep) = &plan.sweep {
-        let node_steps = sweep.steps() as f64 * plan.network.n_nodes() as f64;
+    if let Some(sweep) = &plan.study.sweep {
+        let node_steps = sweep.steps() as f64 * plan.study.network.n_nodes() as f64;
         write!(text, ", sweep {node_steps:.1e} node steps").expect("a string takes every line");
         let trial = trial::of_sweep(plan, sweep);
         seconds += trial.seconds;

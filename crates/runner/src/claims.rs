@@ -5,6 +5,7 @@ mod number;
 mod numbers;
 mod obtained;
 
+use eigensync::Findings;
 use std::fmt;
 
 pub use clusters::labelled;
@@ -12,7 +13,6 @@ use number::Number;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::problem::{Problem, Result};
 use crate::spec::{ClaimSpec, OneOrMany, Quantity};
@@ -253,7 +253,7 @@ impl Judge<'_> {
     fn eigenvectors(&self) -> Result<Judged> {
         let printed: Vec<Vec<f64>> = self.equals("a list of vectors")?;
         let modes = self.spec.at.modes.clone().unwrap_or_default();
-        let spectrum = &self.findings.spectrum;
+        let spectrum = self.findings.spectrum.real_modes();
         let of_eigenspace = |eigenspace: &std::ops::Range<usize>| {
             let inside =
                 modes.iter().zip(&printed).filter(|(mode, _)| eigenspace.contains(&(*mode - 1)));

@@ -1,12 +1,12 @@
 //! The command line: `eigensync run`, `predict`, `check`, `compare`, `list`.
 
+use eigensync::Agreement;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 use dynamics::InstructionSet;
 
-use crate::agreement::Agreement;
 use crate::claims::{Claim, Verdict};
 use crate::computed::Curves;
 use crate::journal::Journal;
@@ -15,9 +15,7 @@ use crate::place::Place;
 use crate::plan::{self, Plan};
 use crate::problem::{Problem, Result};
 use crate::spec::FigureKind;
-use crate::{
-    check, claims, compare, findings, list, place, predict, results, simulated, step_effect, table,
-};
+use crate::{check, claims, compare, findings, list, place, predict, results, table};
 
 /// Predicted states of an experiment beside simulation that are shown; its summary has them all.
 const STATES_SHOWN: usize = 12;
@@ -182,7 +180,7 @@ fn run_files(
     let started = Instant::now();
     let (mut plans, left_out) = plan::all(files, quick)?;
     for plan in &mut plans {
-        plan.msf.instruction_set = instruction_set.unwrap_or(plan.msf.instruction_set);
+        plan.study.msf.instruction_set = instruction_set.unwrap_or(plan.study.msf.instruction_set);
     }
     let reserve =
         |plan: &Plan| Place::reserve(&folders.results, &plan.id, ("run", &plan.file), quick);
@@ -204,7 +202,8 @@ fn run_files(
             let found = findings::find(plan, &mut curves, &journal)?;
             let claims = claims::judge(plan, &found)?;
             let place = place.take().expect("results are written once");
-            let place = results::write(plan, &found, claims.clone(), took, place)?;
+            let place =
+                results::write(plan, &found, claims.clone(), (took, journal.taken()), place)?;
             Ok((found, claims, place))
         };
         let (found, claims, place) = journal.until(done)?;
@@ -212,7 +211,7 @@ fn run_files(
         tell!("{}: {} in {}", plan.id, shown(&place), seconds(took()));
         judged.push((plan.id.clone(), claims));
         states.extend(state_rows(plan, &found));
-        if let Some(looked) = step_effect::looked_at(&found.step_effects) {
+        if let Some(looked) = eigensync::step_effects_looked_at(&found.step_effects) {
             tell!("{}: {looked}", plan.id);
         }
         written.push((plan.id.clone(), place));
@@ -263,15 +262,15 @@ fn run_files(
 }
 
 /// The first predicted states with clusters, and what the sweep shows of them.
-fn state_rows(plan: &Plan, found: &findings::Findings) -> Vec<table::StateRow> {
-    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+fn state_rows(plan: &Plan, found: &eigensync::Findings) -> Vec<table::StateRow> {
+    let has_pairs = plan.study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
     let states = found.cascade.iter().enumerate().filter(|_| has_pairs);
     let row = |(at, state): (usize, &clustering::State)| {
         let clusters = state.clusters.nontrivial();
         if clusters.is_empty() {
             return None;
         }
-        let simulated::Seen { onset, end } = found.state_seen(at, &clusters)?;
+        let eigensync::Seen { onset, end } = found.state_seen(at, &clusters)?;
         let (id, predicted) = (plan.id.clone(), state.epsilon);
         Some(table::StateRow { id, predicted, seen: [onset, end], runs: found.runs_in(state)? })
     };

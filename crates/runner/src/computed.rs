@@ -3,46 +3,112 @@
 
 mod sweep;
 
+use std::cell::RefCell;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
-use dynamics::DynamicsError;
 use dynamics::lyapunov::Times;
+use dynamics::{Progress, Run};
+use eigensync::{Compute, Error, Simulated, StepEffect, Study, Sweep, Warning};
 use msf::MasterStability;
 use spectra::Spectrum;
 
 use crate::journal::{Journal, Key, Kind, is_worth_keeping};
 use crate::plan::{Node, Plan};
-use crate::problem::{Problem, Result, plain};
 use crate::progress::Stages;
-
-pub use sweep::{effects_of_step, simulate};
+use crate::warning;
 
 /// The master stability functions computed so far: experiments that ask for the same one share it.
 #[derive(Default)]
 pub struct Curves(Vec<(Node, msf::Request, MasterStability)>);
 
-impl Curves {
-    /// The curve of a plan, computed unless an earlier plan, or an earlier run, had the same node and
-    /// request.
-    pub fn of(&mut self, plan: &Plan, journal: &Journal) -> Result<MasterStability> {
+/// Computes the study of a plan, with progress on the terminal.
+pub struct Kept<'a> {
+    plan: &'a Plan,
+    curves: RefCell<&'a mut Curves>,
+    journal: &'a Journal,
+}
+
+impl<'a> Kept<'a> {
+    pub fn new(plan: &'a Plan, curves: &'a mut Curves, journal: &'a Journal) -> Self {
+        Self { plan, curves: RefCell::new(curves), journal }
+    }
+}
+
+impl Compute for Kept<'_> {
+    type Error = Error;
+
+    /// Computed unless an earlier plan, or an earlier run, had the same node and request.
+    fn curve(&self, study: &Study) -> Result<MasterStability, Error> {
+        let Self { plan, journal, .. } = self;
+        let mut curves = self.curves.borrow_mut();
         let same = |known: &&(Node, msf::Request, MasterStability)| {
-            known.0 == plan.node && known.1 == plan.msf
+            known.0 == plan.node && known.1 == study.msf
         };
-        let known = self.0.iter().find(same).map(|(_, _, curve)| curve.clone());
+        let known = curves.0.iter().find(same).map(|(_, _, curve)| curve.clone());
         let is_known = known.is_some();
-        let key = Key::of(Kind::Curve, &(&plan.node, &plan.msf));
+        let key = Key::of(Kind::Curve, &(&plan.node, &study.msf));
         let curve = journal.once((Kind::Curve, key), || {
-            let compute = |progress: dynamics::Progress<'_>| {
-                msf::master_stability(&plan.node.equations(), &plan.msf, progress)
-            };
-            known.map_or_else(|| plan.stages.measured("msf", plan.msf_steps(), compute), Ok)
+            let compute =
+                |progress: Progress<'_>| msf::master_stability(&study.node, &study.msf, progress);
+            known.map_or_else(|| plan.stages.measured("msf", study.msf_steps(), compute), Ok)
         });
-        let curve = curve.map_err(|error| msf_problem(plan, &error))?;
-        refuse_overflow(plan, &curve)?;
+        let curve = curve.map_err(Error::Curve)?;
         if !is_known {
-            self.0.push((plan.node.clone(), plan.msf.clone(), curve.clone()));
+            curves.0.push((plan.node.clone(), study.msf.clone(), curve.clone()));
         }
         Ok(curve)
+    }
+
+    /// Kept where writing it costs little beside computing it again.
+    fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
+        let Self { plan, journal, .. } = self;
+        let key = Key::of(Kind::Spectrum, &(matrix(plan), request));
+        if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
+            return Ok(spectrum);
+        }
+        let started = Instant::now();
+        let spectrum = plan.stages.told("spectrum", |tell| {
+            spectra::leading_modes_with(&study.matrix, request, &|advance| {
+                tell(&advanced(advance));
+                ControlFlow::Continue(())
+            })
+        });
+        let spectrum = spectrum.map_err(Error::Spectrum)?;
+        let bytes = 8.0 * spectrum.n_modes() as f64 * study.network.n_nodes() as f64;
+        if is_worth_keeping(bytes, started.elapsed()) {
+            journal.keep(Kind::Spectrum, &key, &spectrum);
+        }
+        Ok(spectrum)
+    }
+
+    fn runs(&self, _study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
+        sweep::runs(self.plan, sweep, self.journal).map_err(Error::Sweep)
+    }
+
+    fn step_effects(
+        &self,
+        _study: &Study,
+        sweep: &Sweep,
+        simulated: &Simulated,
+    ) -> Result<Vec<StepEffect>, Error> {
+        sweep::effects_of_step(self.plan, sweep, simulated, self.journal).map_err(Error::Sweep)
+    }
+
+    fn stage<T>(
+        &self,
+        name: &str,
+        n_steps: Option<u64>,
+        work: impl FnOnce(Progress<'_>) -> T,
+    ) -> T {
+        match n_steps {
+            Some(n_steps) => self.plan.stages.measured(name, n_steps, work),
+            None => self.plan.stages.unmeasured(name, || work(dynamics::QUIET)),
+        }
+    }
+
+    fn warn(&self, warning: &Warning) {
+        warning::say(&self.plan.id, warning);
     }
 }
 
@@ -56,64 +122,17 @@ pub fn reach(
     const SEED: u64 = 1;
     let key = Key::of(Kind::Look, &(node, times, SEED));
     journal.once((Kind::Look, key), || {
-        let look =
-            |progress: dynamics::Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
+        let look = |progress: Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
         stages.measured("first look at the msf", 16 * times.steps(), look)
     })
 }
 
-/// The modes of a plan. They are kept where writing them costs little beside computing them again.
-pub fn spectrum(plan: &Plan, request: &spectra::Request, journal: &Journal) -> Result<Spectrum> {
-    let key = Key::of(Kind::Spectrum, &(matrix(plan), request));
-    if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
-        return Ok(spectrum);
-    }
-    let started = Instant::now();
-    let spectrum = plan.stages.told("spectrum", |tell| {
-        spectra::leading_modes_with(&plan.matrix, request, &|advance| tell(&advanced(advance)))
-    });
-    let spectrum = spectrum.map_err(|error| {
-        Problem::from_error("the spectrum could not be computed", error).in_file(&plan.file)
-    })?;
-    let bytes = 8.0 * spectrum.eigenvectors.len() as f64 * plan.network.n_nodes() as f64;
-    if is_worth_keeping(bytes, started.elapsed()) {
-        journal.keep(Kind::Spectrum, &key, &spectrum);
-    }
-    Ok(spectrum)
-}
-
 /// What the coupling matrix of a plan is known by.
 fn matrix(plan: &Plan) -> (&str, usize, u8) {
-    (&plan.links_hash, plan.network.n_nodes(), plan.experiment.coupling.matrix as u8)
+    (&plan.links_hash, plan.study.network.n_nodes(), plan.experiment.coupling.matrix as u8)
 }
 
 fn advanced(advance: spectra::Advance) -> String {
     let spectra::Advance { products, converged, wanted } = advance;
     format!("{converged} of {wanted} modes found, {products} matrix-vector products")
-}
-
-fn msf_problem(plan: &Plan, error: &msf::MsfError) -> Problem {
-    let what = "the master stability function could not be computed";
-    let problem = Problem::from_error(what, error).in_file(&plan.file);
-    if !matches!(error, msf::MsfError::Dynamics(DynamicsError::Escaped { .. })) {
-        return problem;
-    }
-    problem.hint(format!(
-        "either the parameters of [oscillator.{}] leave it no bounded attractor, or `msf.step` is \
-         too long for it",
-        plan.node.model.name()
-    ))
-}
-
-/// A perturbation may grow beyond all numbers between two renormalisations.
-fn refuse_overflow(plan: &Plan, msf: &MasterStability) -> Result<()> {
-    let Some(at) = msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) else {
-        return Ok(());
-    };
-    let message = format!(
-        "reaches {}, where perturbations grow beyond all numbers between two renormalisations",
-        plain(msf.sigma[at])
-    );
-    let hint = "end the grid earlier, or shorten `msf.renormalise` and `msf.step`";
-    Err(Problem::with_key(&plan.file, "msf.sigma", message).hint(hint))
 }

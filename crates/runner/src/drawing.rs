@@ -15,11 +15,10 @@ pub use pairs::{distance, error_matrix};
 pub use picture::picture;
 pub use room::foreseen;
 
-use crate::findings::Findings;
-use crate::plan::{Plan, Sweep};
-use crate::simulated::{OverSeeds, Simulated};
+use crate::plan::Plan;
 use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
-use crate::table::three_digits;
+use eigensync::numbers::three_digits;
+use eigensync::{Findings, OverSeeds, Simulated, Sweep};
 use figures::{
     Content, Figure, Label, LinePanel, Link, MsfCurve, NetworkPanel, Node, Panel, Placement, Scale,
     Series, Shade, Spread, SpreadStyle, Tone, msf_panel,
@@ -56,7 +55,7 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     let mut identities = Identities::of(plan, findings);
     let network = network_or_spectrum(plan, findings, &mut identities);
     let mut panels = vec![left(0, 1, network)];
-    let lines = match (&plan.sweep, &findings.simulated) {
+    let lines = match (&plan.study.sweep, &findings.simulated) {
         (Some(sweep), Some(simulated)) => {
             Some(errors(plan, sweep, simulated, findings, &identities))
         }
@@ -87,14 +86,15 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
 /// The network coloured by clusters or, where it is too large to be seen, its leading eigenvalues. The
 /// clusters are those of the experiment, else those of the predicted state that has the most.
 fn network_or_spectrum(plan: &Plan, findings: &Findings, identities: &mut Identities) -> Content {
-    let own = plan.sweep.as_ref().map_or(&[][..], |sweep| &sweep.observables.clusters);
-    if plan.network.n_nodes() > DRAWN_NODES {
+    let own = plan.study.sweep.as_ref().map_or(&[][..], |sweep| &sweep.observables.clusters);
+    if plan.study.network.n_nodes() > DRAWN_NODES {
         identities.shown = None;
         return Content::Lines(spectrum(findings));
     }
     if !own.is_empty() {
         identities.shown = None;
-        let name = |(m, nodes): (usize, &Vec<usize>)| identity::own_name(&plan.network, m, nodes);
+        let name =
+            |(m, nodes): (usize, &Vec<usize>)| identity::own_name(&plan.study.network, m, nodes);
         return Content::Network(network(plan, own, (1..).zip(own).map(name).collect()));
     }
     Content::Network(predicted_network(plan, findings, identities))
@@ -126,13 +126,13 @@ fn range((from, to): (f64, Option<f64>)) -> Label {
 
 /// λ_k against k.
 fn spectrum(findings: &Findings) -> LinePanel {
-    let eigenvalues = &findings.spectrum.eigenvalues;
+    let eigenvalues = findings.spectrum.real_eigenvalues();
     LinePanel {
         x_label: Label::text("mode ").with_math("k"),
         y_label: Label::math("λ").subscript("k"),
         series: vec![Series {
             x: (1..=eigenvalues.len()).map(|k| k as f64).collect(),
-            y: eigenvalues.clone(),
+            y: eigenvalues,
             ..Series::default()
         }],
         ..LinePanel::default()
@@ -141,7 +141,7 @@ fn spectrum(findings: &Findings) -> LinePanel {
 
 /// The network coloured by clusters, the first of which has the first colour.
 fn network(plan: &Plan, clusters: &[Vec<usize>], names: Vec<Label>) -> NetworkPanel {
-    let network = &plan.network;
+    let network = &plan.study.network;
     let mut cluster_of = vec![None; network.n_nodes()];
     for (cluster, nodes) in clusters.iter().enumerate() {
         nodes.iter().for_each(|&node| cluster_of[node] = Some(cluster));
@@ -186,7 +186,7 @@ fn errors(
     findings: &Findings,
     identities: &Identities,
 ) -> LinePanel {
-    let labels = plan.network.labels();
+    let labels = plan.study.network.labels();
     let colours = identities.shown_colours(findings, labels.len());
     let observables = &sweep.observables;
     let nodes: Vec<usize> =
@@ -294,7 +294,7 @@ fn curve(
     style: usize,
     at: impl Fn(usize) -> Option<OverSeeds>,
 ) -> Series {
-    let x = plan.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.epsilon.clone());
+    let x = plan.study.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.epsilon.clone());
     let points: Vec<Option<OverSeeds>> = (0..x.len()).map(at).collect();
     // Where every seed escaped the curve has a gap.
     let of = |value: &dyn Fn(&OverSeeds) -> f64| {

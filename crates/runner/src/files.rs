@@ -43,3 +43,8 @@ pub fn open(path: &Path) -> io::Result<File> {
         other => Err(io::Error::other(format!("it is {other}; expected {REGULAR}"))),
     }
 }
+
+/// The shortest text that reads back as the same number.
+pub fn number(value: f64) -> String {
+    format!("{value:?}")
+}

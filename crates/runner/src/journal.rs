@@ -196,7 +196,11 @@ impl Journal {
         }
         let (id, log) = (id.to_owned(), Mutex::new(log));
         let journal = Arc::new(Self { id, log, snapshots, state: Mutex::default() });
-        signals::keep_in_mind(&journal);
+        let kept = journal.clone();
+        signals::keep_in_mind(Arc::new(move || {
+            kept.flush();
+            kept.what_is_kept()
+        }));
         Ok(journal)
     }
 

@@ -5,17 +5,16 @@
 //! `drawing`), `compare` holds it against the golden outputs. Only this crate knows paths, clocks
 //! and terminals; it knows no numerical method.
 
-mod agreement;
 mod cascade_files;
 mod check;
 mod claims;
 mod cli;
 mod compare;
 mod computed;
-mod doubts;
 mod drawing;
 mod files;
 mod findings;
+mod hashes;
 mod journal;
 mod list;
 mod load;
@@ -25,18 +24,13 @@ mod overview;
 mod place;
 mod plan;
 mod predict;
-mod prediction;
 mod problem;
 mod progress;
 mod provenance;
 mod record;
 mod results;
 mod signals;
-mod simulated;
 mod spec;
-mod stability;
-mod step_effect;
-mod synchrony;
 mod table;
 mod trial;
 mod warning;

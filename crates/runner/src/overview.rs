@@ -3,6 +3,8 @@
 
 mod exactness;
 
+use eigensync::numbers::{four_digits, two_digits, with_error};
+use eigensync::{Findings, looked};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
@@ -11,12 +13,8 @@ use comfy_table::presets::NOTHING;
 use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::provenance::peak_memory;
-use crate::stability::with_error;
-use crate::synchrony::looked;
-use crate::table::{four_digits, two_digits};
 
 /// Modes and states shown; the results folder has them all.
 const SHOWN: usize = 12;
@@ -43,8 +41,8 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
 }
 
 fn network(plan: &Plan) -> String {
-    let network = &plan.network;
-    let parts = match plan.n_components {
+    let network = &plan.study.network;
+    let parts = match plan.study.n_components {
         1 => "connected".into(),
         parts => format!("{} components", grouped(parts)),
     };
@@ -53,8 +51,8 @@ fn network(plan: &Plan) -> String {
 
 fn modes(findings: &Findings) -> String {
     let spectrum = &findings.spectrum;
-    let residual = spectrum.residuals.iter().copied().fold(0.0, f64::max);
-    let multiple = spectrum.eigenspaces.iter().filter(|modes| modes.len() > 1).count();
+    let residual = spectrum.largest_residual();
+    let multiple = spectrum.eigenspaces.iter().filter(|space| space.multiplicity() > 1).count();
     let verified = match spectrum.verification {
         Verification::Dense => "all of them were computed".to_owned(),
         Verification::Inertia { .. } => {
@@ -69,7 +67,7 @@ fn modes(findings: &Findings) -> String {
     };
     let mut text = format!(
         "{} computed, residuals up to {}; {verified}",
-        spectrum.eigenvalues.len(),
+        spectrum.n_modes(),
         two_digits(residual)
     );
     if multiple > 0 {
@@ -79,8 +77,8 @@ fn modes(findings: &Findings) -> String {
 }
 
 fn lambda(findings: &Findings) -> String {
-    let values = findings.spectrum.eigenvalues.iter().skip(1);
-    abridged(values.map(|&value| four_digits(value)))
+    let values = findings.spectrum.real_eigenvalues();
+    abridged(values.into_iter().skip(1).map(four_digits))
 }
 
 /// Λ(0) and what it says.
@@ -150,8 +148,8 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
         writeln!(text, "… and {more} more states").expect("a string takes every line");
     }
     if let Some(last) = findings.cascade.last().filter(|state| state.truncated) {
-        let computed = findings.spectrum.eigenvalues.len();
-        let n_nodes = plan.network.n_nodes();
+        let computed = findings.spectrum.n_modes();
+        let n_nodes = plan.study.network.n_nodes();
         let why = match findings.spectrum.cutoff {
             _ if computed == n_nodes => {
                 "below which a mode comes to a sigma that was not looked at".to_owned()

@@ -196,7 +196,7 @@ impl Drop for Place {
     fn drop(&mut self) {
         if let Some(lock) = self.lock.take() {
             let _ = clear(&lock.folder().join(FILES));
-            if !leftovers::holds_work(lock.folder()) {
+            if !lock::holds_work(lock.folder()) {
                 lock.remove();
             }
         }

@@ -12,12 +12,13 @@ mod source;
 mod spectrum;
 mod step;
 
+use eigensync::{Study, Sweep, Warning};
 use std::path::{Path, PathBuf};
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
 use dynamics::{
-    Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Replica, Schedule,
+    Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Schedule,
 };
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Network, Normalization};
@@ -26,17 +27,16 @@ pub use memory::Memory;
 pub use network::nodes_named;
 pub use node::Node;
 use serde_json::Value;
-pub use spectrum::SpectrumPlan;
 
+use crate::hashes::{links_hash, plan_hash};
 use crate::output::shown;
 use crate::place::id;
 use crate::problem::{Problem, Result};
 use crate::progress::Stages;
-use crate::provenance::{links_hash, plan_hash};
 use crate::spec::{
-    Bound, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, SweepSpec, ThresholdSpec,
+    Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, RegionsSpec, SweepSpec,
+    ThresholdSpec,
 };
-use crate::warning::Warning;
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
@@ -58,55 +58,18 @@ pub struct Plan {
     pub written: Value,
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
-    pub network: Network,
-    /// SHA-256 of its links and weights.
+    /// What is asked of the library.
+    pub study: Study,
+    /// SHA-256 of the links and weights of its network.
     pub links_hash: String,
-    /// Number of connected components.
-    pub n_components: usize,
     /// What each step of preparation did.
     pub preparation: Vec<Report>,
-    pub matrix: CouplingMatrix,
-    pub spectrum: SpectrumPlan,
+    /// What the node of the study is known by.
     pub node: Node,
-    pub msf: msf::Request,
-    pub rule: ClusterRule,
-    pub sweep: Option<Sweep>,
     /// What is doubtful about it, though it can be done.
     pub doubts: Vec<Warning>,
     /// The stages of the run, that of reading the network already taken.
     pub stages: Stages,
-}
-
-/// Simulations over ε.
-pub struct Sweep {
-    pub epsilon: Vec<f64>,
-    pub seeds: Vec<u64>,
-    pub method: Method,
-    pub schedule: Schedule,
-    pub observables: Observables,
-    pub synchronised_below: Bound,
-    pub kick: f64,
-}
-
-impl Sweep {
-    /// All replicas, seed by seed within each ε.
-    pub fn replicas(&self) -> Vec<Replica> {
-        let of = |&epsilon| self.seeds.iter().map(move |&seed| Replica { epsilon, seed });
-        self.epsilon.iter().flat_map(of).collect()
-    }
-
-    /// Steps of all replicas together.
-    pub fn steps(&self) -> u64 {
-        self.replicas().len() as u64 * self.schedule.steps()
-    }
-}
-
-impl Plan {
-    /// Steps of all tangent vectors of the MSF, refinement of one zero included, with what is run at
-    /// half the step.
-    pub fn msf_steps(&self) -> u64 {
-        (self.msf.looked_at().len() as u64 + 16 + 64 + 2 * (8 + 16)) * self.msf.times.steps()
-    }
 }
 
 /// Plans all files; two of one name would overwrite each other's results. Experiments whose data are
@@ -171,20 +134,26 @@ fn of(
     });
     let node = checker.node()?;
     let sweep = experiment.sweep.as_ref();
-    let mut plan = Plan {
-        spectrum: checker.spectrum(network.n_nodes(), n_components)?,
+    let study = Study {
+        modes: checker.spectrum(network.n_nodes(), n_components)?,
         msf: checker.msf()?,
         rule: checker.rule(network.n_nodes())?,
         sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node.model)).transpose()?,
+        regions: experiment.regions.as_ref().map(RegionsSpec::bounds),
+        seed: experiment.seed,
+        node: node.equations(),
+        network,
+        n_components,
+        matrix,
+    };
+    let mut plan = Plan {
+        study,
         id: id(file)?,
         file: file.to_owned(),
         kept: None,
         shortened,
-        network,
         links_hash,
-        n_components,
         preparation,
-        matrix,
         node,
         experiment: experiment.clone(),
         written: written.clone(),
@@ -192,8 +161,8 @@ fn of(
         stages: Stages::default(),
     };
     plan.doubts = checker.steps(&plan)?;
-    checker.regions(&plan.network)?;
-    checker.figure(&plan.network, &plan.spectrum)?;
+    checker.regions(&plan.study.network)?;
+    checker.figure(&plan.study.network, &plan.study.modes)?;
     checker.claims(&plan)?;
     Memory::of(&plan).affordable(file)?;
     Ok(Plan { stages, ..plan })
@@ -383,7 +352,7 @@ impl Plan {
     /// The kind of the figure that can be drawn: there are no matrices where not all pairs are
     /// observed, and the sweep is shown instead.
     pub fn figure_kind(&self) -> FigureKind {
-        let has_pairs = self.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+        let has_pairs = self.study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
         match self.figure().kind {
             FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
             kind => kind,

@@ -1,6 +1,7 @@
 //! `eigensync predict NETWORK`: a prediction without an experiment file. The options become the
 //! experiment file that says the same, which is run like any other and kept beside the results.
 
+use eigensync::Wanted;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,7 +18,7 @@ use crate::place::{self, Place};
 use crate::plan::{self, Node, Plan};
 use crate::problem::{Problem, Result, nearest};
 use crate::progress::Stages;
-use crate::spec::{Format, MatrixKind, ModesSpec};
+use crate::spec::{Format, MatrixKind};
 use crate::{findings, load, overview, results};
 
 /// Points of the curve Λ(σ).
@@ -45,7 +46,7 @@ pub struct Args {
     /// them becomes unstable. `auto` computes all where the stable set has an upper end and the network
     /// has up to 5000 nodes, else 20 and a zero mode for each further component
     #[arg(long, value_name = "M", default_value = "auto", value_parser = modes)]
-    modes: ModesSpec,
+    modes: Wanted,
     /// Instead of a number of modes: all that are unstable at this coupling strength, so that the
     /// cascade reaches down to it
     #[arg(long, value_name = "EPSILON", conflicts_with = "modes")]
@@ -101,7 +102,10 @@ pub fn run(args: &Args) -> Result<()> {
         let found = findings::find(&plan, &mut Curves::default(), &journal)
             .map_err(|problem| problem.renamed(&file, &args.network))?;
         let place = place.take().expect("results are written once");
-        let place = results::write(&plan, &found, Vec::new(), || started.elapsed(), place)?;
+        let place = {
+            let took = (|| started.elapsed(), journal.taken());
+            results::write(&plan, &found, Vec::new(), took, place)?
+        };
         Ok((plan, found, place))
     })?;
     say!("{}", overview::of(&plan, &found).trim_end());
@@ -130,11 +134,11 @@ fn plan(
 }
 
 /// A number of modes, or the word for one.
-fn modes(text: &str) -> std::result::Result<ModesSpec, String> {
+fn modes(text: &str) -> std::result::Result<Wanted, String> {
     match (text, text.parse::<u64>()) {
-        ("all", _) => Ok(ModesSpec::All),
-        ("auto", _) => Ok(ModesSpec::Auto),
-        (_, Ok(modes)) if modes > 0 => Ok(ModesSpec::Leading(modes)),
+        ("all", _) => Ok(Wanted::All),
+        ("auto", _) => Ok(Wanted::Auto),
+        (_, Ok(modes)) if modes > 0 => Ok(Wanted::Leading(modes)),
         _ => Err("expected `all`, `auto` or a number above zero".into()),
     }
 }
@@ -143,8 +147,8 @@ fn spectrum(args: &Args) -> Value {
     let modes = match args.unstable_at {
         Some(epsilon) => table([("unstable_at", epsilon.into())]),
         None => match args.modes {
-            ModesSpec::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
-            ModesSpec::All => "all".into(),
+            Wanted::Leading(modes) => i64::try_from(modes).unwrap_or(i64::MAX).into(),
+            Wanted::All => "all".into(),
             _ => "auto".into(),
         },
     };

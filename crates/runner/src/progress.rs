@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::io::{Read, Seek, SeekFrom};
+use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -86,6 +87,7 @@ impl Stages {
                 bar.inc_length(done);
             }
             bar.inc(done);
+            ControlFlow::Continue(())
         };
         let result = self.timed(stage, || work(&report));
         bar.finish_and_clear();
@@ -124,7 +126,7 @@ pub struct Watched<'a, R> {
 impl<R: Read> Read for Watched<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         let n_bytes = self.source.read(buffer)?;
-        (self.progress)(n_bytes as u64);
+        let _ = (self.progress)(n_bytes as u64);
         Ok(n_bytes)
     }
 }

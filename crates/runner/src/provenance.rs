@@ -4,17 +4,11 @@ use std::time::Duration;
 
 use indexmap::IndexMap;
 use serde::Serialize;
-use serde_json::Value;
-use sha2::{Digest, Sha256};
 
-use graph::Network;
-
+use crate::hashes::plan_hash;
 use crate::journal::Held;
 use crate::place::Origin;
 use crate::plan::Plan;
-
-/// Bytes that are hashed at a time: many links at once take a tenth of the time.
-const HASHED_BYTES: usize = 1 << 16;
 
 /// The `provenance` of a summary. The only part of it that may differ between two equal runs.
 #[derive(Serialize)]
@@ -58,7 +52,7 @@ impl Provenance {
             seed: plan.experiment.seed,
             plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),
             host_features: host_features(),
-            instruction_set: plan.msf.instruction_set.name(),
+            instruction_set: plan.study.msf.instruction_set.name(),
             threads: rayon::current_num_threads(),
             taken_over,
             wall_time_s: seconds(took),
@@ -68,43 +62,11 @@ impl Provenance {
     }
 }
 
-/// SHA-256 of the links and weights of a network, in node order.
-pub fn links_hash(network: &Network) -> String {
-    let mut hash = Sha256::new();
-    let mut bytes = Vec::new();
-    for (row, links) in network.adjacency().outer_iterator().enumerate() {
-        for (col, weight) in links.iter() {
-            bytes.extend((row as u64).to_le_bytes());
-            bytes.extend((col as u64).to_le_bytes());
-            bytes.extend(weight.to_le_bytes());
-        }
-        if bytes.len() >= HASHED_BYTES {
-            hash.update(&bytes);
-            bytes.clear();
-        }
-    }
-    hash.update(&bytes);
-    text(hash)
-}
-
-/// SHA-256 of an experiment as parsed, its shortening, and the hash of its network's links.
-pub fn plan_hash(written: &Value, shortened: f64, links_hash: &str) -> String {
-    let mut hash = Sha256::new();
-    hash.update(written.to_string());
-    hash.update(shortened.to_le_bytes());
-    hash.update(links_hash);
-    text(hash)
-}
-
 /// Most memory that this process has held, as Linux counts it; none elsewhere.
 pub fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
-}
-
-fn text(hash: Sha256) -> String {
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn host_features() -> Vec<&'static str> {

@@ -3,6 +3,7 @@
 mod parameters;
 mod states;
 
+use eigensync::{Agreement, Findings, OverSeeds, Predicted, StepEffect, Synchrony, Warning, word};
 use std::time::Duration;
 
 use dynamics::{Estimate, Outcome, Run};
@@ -10,18 +11,12 @@ use msf::{Attractor, End, StableRegion, Zero};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::agreement::{Agreement, Predicted};
 use crate::claims::{Claim, labelled};
-use crate::findings::Findings;
+use crate::journal::Held;
 use crate::place::Origin;
 use crate::plan::Plan;
 use crate::provenance::Provenance;
-use crate::simulated::OverSeeds;
 use crate::spec::StepSpec;
-use crate::stability::word;
-use crate::step_effect::StepEffect;
-use crate::synchrony::Synchrony;
-use crate::warning::Warning;
 
 pub use states::StateRecord;
 
@@ -275,9 +270,9 @@ pub fn summarise(
     findings: &Findings,
     claims: Vec<Claim>,
     took: (Duration, &[(String, Duration)]),
-    origin: &Origin,
+    (taken, origin): (Held, &Origin),
 ) -> Summary {
-    let (network, spectrum) = (&plan.network, &findings.spectrum);
+    let (network, spectrum) = (&plan.study.network, &findings.spectrum);
     Summary {
         layout: LAYOUT,
         parameters: parameters::of(plan),
@@ -290,11 +285,11 @@ pub fn summarise(
             groups: network.groups().len(),
             nodes: network.n_nodes(),
             links: network.n_links(),
-            components: plan.n_components,
+            components: plan.study.n_components,
             isolated_nodes: network.isolated_nodes().len(),
             links_hash: plan.links_hash.clone(),
         },
-        eigenvalues: spectrum.eigenvalues.clone(),
+        eigenvalues: spectrum.real_eigenvalues(),
         spectrum: SpectrumRecord {
             solver: match spectrum.solver {
                 spectra::Solver::Dense => "dense",
@@ -303,13 +298,14 @@ pub fn summarise(
                 spectra::Solver::ShiftInvert => "shift-invert",
             },
             multiple: spectrum
+                .real_modes()
                 .eigenspaces
                 .iter()
                 .filter(|modes| modes.len() > 1)
                 .map(|modes| [modes.start + 1, modes.end])
                 .collect(),
             tolerance: spectrum.tolerance,
-            largest_residual: spectrum.residuals.iter().copied().fold(0.0, f64::max),
+            largest_residual: spectrum.largest_residual(),
             cutoff: spectrum.cutoff,
             verified: verified(spectrum.verification),
         },
@@ -321,7 +317,7 @@ pub fn summarise(
         simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, findings.taken, took, origin),
+        provenance: Provenance::new(plan, taken, took, origin),
         experiment: plan.written.clone(),
     }
 }
@@ -405,8 +401,10 @@ fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
 }
 
 fn simulation_records(plan: &Plan, findings: &Findings) -> Vec<SimulationRecord> {
-    let (Some(sweep), Some(simulated)) = (&plan.sweep, &findings.simulated) else { return vec![] };
-    let reference = sweep.observables.reference.map_or(0, |_| plan.network.n_nodes());
+    let (Some(sweep), Some(simulated)) = (&plan.study.sweep, &findings.simulated) else {
+        return vec![];
+    };
+    let reference = sweep.observables.reference.map_or(0, |_| plan.study.network.n_nodes());
     let record = |(position, &epsilon): (usize, &f64)| SimulationRecord {
         epsilon,
         outcome: outcome(simulated.at(position)),
@@ -444,7 +442,7 @@ fn outcome(runs: &[Run]) -> String {
 }
 
 fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
-    let groups = plan.network.groups();
+    let groups = plan.study.network.groups();
     let names = |clusters: Vec<Vec<usize>>| {
         let name = |region: &usize| groups[*region].name.clone();
         clusters.iter().map(|regions| regions.iter().map(name).collect()).collect()
@@ -466,6 +464,6 @@ fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
 }
 
 fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {
-    let labels = labelled(clusters, &plan.network).into_iter();
+    let labels = labelled(clusters, &plan.study.network).into_iter();
     labels.map(|cluster| cluster.into_iter().map(str::to_owned).collect()).collect()
 }

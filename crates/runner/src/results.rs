@@ -1,5 +1,7 @@
 //! Everything a run writes: the summary, the tables, the figure.
 
+use eigensync::numbers::plain;
+use eigensync::{Findings, Simulated, Warning, completed};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -8,14 +10,14 @@ use dynamics::{Errors, Estimate};
 use crate::cascade_files;
 use crate::claims::Claim;
 use crate::drawing;
-use crate::findings::Findings;
+use crate::files::number;
+use crate::journal::Held;
 use crate::place::{Folder, Place};
 use crate::plan::Plan;
-use crate::problem::{Problem, Result, plain};
+use crate::problem::{Problem, Result};
 use crate::record::summarise;
-use crate::simulated::{Simulated, completed};
 use crate::spec::FigureKind;
-use crate::warning::Warnings;
+use crate::warning;
 
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
@@ -28,14 +30,15 @@ pub fn write(
     plan: &Plan,
     findings: &Findings,
     claims: Vec<Claim>,
-    took: impl FnOnce() -> Duration,
+    (took, taken): (impl FnOnce() -> Duration, Held),
     place: Place,
 ) -> Result<PathBuf> {
     let stages = &plan.stages;
     let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
-    let mut warnings = Warnings::new(&plan.id);
+    let tell = |warning: &Warning| warning::say(&plan.id, warning);
+    let mut warnings = eigensync::Warnings::new(&tell);
     picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
     let svg = picture.svg.map(String::into_bytes);
     for (name, bytes) in
@@ -48,8 +51,9 @@ pub fn write(
     if let Some(text) = &plan.kept {
         folder.write(EXPERIMENT, text)?;
     }
-    let mut summary = summarise(plan, findings, claims, (took(), &stages.took()), place.origin());
-    summary.warnings.extend(warnings.into_list());
+    let mut summary =
+        summarise(plan, findings, claims, (took(), &stages.took()), (taken, place.origin()));
+    summary.warnings.extend(warnings.into_list().iter().map(warning::kept));
     let json = serde_json::to_string_pretty(&summary).map_err(|error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     })?;
@@ -68,14 +72,14 @@ fn write_tables(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()>
 }
 
 fn write_spectrum(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<()> {
-    let spectrum = &findings.spectrum;
+    let spectrum = findings.spectrum.real_modes();
     let header = ["mode", "lambda", "residual"].map(str::to_owned);
     let modes = spectrum.eigenvalues.iter().zip(&spectrum.residuals).enumerate();
     let rows = modes.map(|(k, (lambda, residual))| {
         vec![(k + 1).to_string(), number(*lambda), number(*residual)]
     });
     folder.write_table("spectrum.csv", &header, rows)?;
-    let labels = plan.network.labels();
+    let labels = plan.study.network.labels();
     if labels.len() > EIGENVECTOR_TABLE {
         return Ok(());
     }
@@ -102,8 +106,8 @@ type Column = Box<dyn Fn(&Errors) -> Estimate>;
 
 /// A row for each ε and seed; errors of a run that escaped are left empty.
 fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()> {
-    let Some(sweep) = &plan.sweep else { return Ok(()) };
-    let labels = plan.network.labels();
+    let Some(sweep) = &plan.study.sweep else { return Ok(()) };
+    let labels = plan.study.network.labels();
     let mut header = ["epsilon", "seed", "outcome"].map(str::to_owned).to_vec();
     let mut columns: Vec<Column> = Vec::new();
     if let Some(reference) = sweep.observables.reference {
@@ -137,7 +141,7 @@ fn write_matrices(folder: &Folder, plan: &Plan, findings: &Findings) -> Result<(
     if !matches!(plan.figure_kind(), FigureKind::Matrices | FigureKind::Regions) {
         return Ok(());
     }
-    let n_nodes = plan.network.n_nodes();
+    let n_nodes = plan.study.network.n_nodes();
     for (position, &epsilon) in simulated.epsilon.iter().enumerate() {
         let epsilon = plain(epsilon);
         if let Some(distance) = drawing::distance(findings, position) {
@@ -160,9 +164,4 @@ fn npy(n_nodes: usize, values: &[f64]) -> Vec<u8> {
     writer.extend(values).expect("memory takes every byte");
     writer.finish().expect("as many values as the shape says");
     bytes
-}
-
-/// The shortest text that reads back as the same number.
-pub fn number(value: f64) -> String {
-    format!("{value:?}")
 }

@@ -15,7 +15,6 @@ use signal_hook::flag;
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::exit;
 
-use crate::journal::Journal;
 use crate::output::tell;
 use crate::problem::{Problem, Result};
 use crate::progress;
@@ -30,8 +29,11 @@ static STOPPING: AtomicBool = AtomicBool::new(false);
 static RUNNING: AtomicUsize = AtomicUsize::new(0);
 /// Whether they have, and who waits for it.
 static LEFT: (Mutex<bool>, Condvar) = (Mutex::new(false), Condvar::new());
-/// The journal of the run in progress.
-static JOURNAL: Mutex<Option<Arc<Journal>>> = Mutex::new(None);
+/// What of the run in progress is kept, once all of it has been written.
+static KEPT: Mutex<Option<Kept>> = Mutex::new(None);
+
+/// Writes what is left to write, and says what is kept.
+type Kept = Arc<dyn Fn() -> String + Send + Sync>;
 
 /// Waits for signals from now on. One that was ignored when the program started, as by `nohup`, stays so.
 pub fn watch() -> Result<()> {
@@ -80,14 +82,14 @@ pub fn leave() -> ! {
     }
 }
 
-/// Remembers the journal that tells what is kept.
-pub fn keep_in_mind(journal: &Arc<Journal>) {
-    *JOURNAL.lock().unwrap_or_else(PoisonError::into_inner) = Some(journal.clone());
+/// Remembers whom to ask, at the end, to write what is left and to say what is kept.
+pub fn keep_in_mind(kept: Kept) {
+    *KEPT.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
 }
 
 /// Forgets it, once the results that it was kept for are in their place.
 pub fn forget() {
-    *JOURNAL.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    *KEPT.lock().unwrap_or_else(PoisonError::into_inner) = None;
 }
 
 fn stop(signal: i32) -> ! {
@@ -112,12 +114,9 @@ fn stop(signal: i32) -> ! {
 fn farewell(signal: i32) {
     progress::clear();
     let name = signal_hook::low_level::signal_name(signal).unwrap_or("a signal");
-    let journal = JOURNAL.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    match journal {
-        Some(journal) => {
-            journal.flush();
-            tell!("stopped by {name}: {}", journal.what_is_kept());
-        }
+    let kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    match kept {
+        Some(kept) => tell!("stopped by {name}: {}", kept()),
         None => tell!("stopped by {name}"),
     }
 }

@@ -9,13 +9,14 @@ mod values;
 
 pub use claim::{ClaimSpec, OneOrMany, Quantity, Trend};
 use dynamics::Model;
+use eigensync::{Bound, Wanted};
 use indexmap::IndexMap;
 pub use network::{
     CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RegionsSpec,
     RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::{Deserialize, Serialize};
-pub use values::{Bound, EvenGrid, Grid, Layout, ModesSpec, Name, ThresholdSpec};
+pub use values::{EvenGrid, Grid, Layout, Name, ThresholdSpec};
 
 /// An experiment: one network, one oscillator, one question.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -78,7 +79,7 @@ pub enum MatrixKind {
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrumSpec {
     /// By default all of a network that is small enough, else `"auto"`.
-    pub modes: Option<ModesSpec>,
+    pub modes: Option<Wanted>,
     pub solver: SolverKind,
     /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
     pub tolerance: Option<f64>,

@@ -1,5 +1,7 @@
 //! The table of claims, and numbers as people read them.
 
+use eigensync::numbers::{four_digits, two_digits};
+use eigensync::{Agreement, End, Known};
 use std::time::Duration;
 
 use comfy_table::presets::UTF8_BORDERS_ONLY;
@@ -7,10 +9,8 @@ use comfy_table::{ContentArrangement, Table};
 use indexmap::IndexSet;
 use serde_json::Value;
 
-use crate::agreement::Agreement;
 use crate::claims::Claim;
 use crate::output::one_line;
-use crate::simulated::{End, Known};
 
 /// Lists with more entries are abridged.
 const LONG_LIST: usize = 8;
@@ -188,44 +188,6 @@ fn joined(list: &[Value], separator: &str) -> String {
         entries.splice(LONG_LIST / 2..entries.len() - LONG_LIST / 2, ["…".into()]);
     }
     entries.join(separator)
-}
-
-/// A number with four significant digits, counts whole.
-pub fn four_digits(number: f64) -> String {
-    if number == 0.0 {
-        return "0".into();
-    }
-    if number.abs() < 1e-4 {
-        return format!("{number:.1e}");
-    }
-    // Counts are shown whole.
-    if number.fract() == 0.0 && number.abs() < 1e15 {
-        return format!("{number}");
-    }
-    written(format!("{number:.3e}").parse::<f64>().unwrap_or(number))
-}
-
-/// A number with three significant digits.
-pub fn three_digits(number: f64) -> String {
-    let digits = format!("{number:.2e}").parse::<f64>().unwrap_or(number);
-    format!("{digits}")
-}
-
-/// A number with two significant digits.
-pub fn two_digits(number: f64) -> String {
-    if number != 0.0 && number.abs() < 1e-5 {
-        return format!("{number:.1e}");
-    }
-    written(format!("{number:.1e}").parse::<f64>().unwrap_or(number))
-}
-
-/// A number in full, unless it is so large that nobody would count its zeros.
-fn written(number: f64) -> String {
-    if number.is_finite() && number.abs() >= 1e15 {
-        format!("{number:e}")
-    } else {
-        format!("{number}")
-    }
 }
 
 #[cfg(test)]

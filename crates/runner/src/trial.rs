@@ -2,13 +2,14 @@
 //! stability function, the steps of the network, and the sampling of its errors, each by itself. They
 //! take about a second together, two for a million nodes, since what grows is clipped and scaled.
 
+use eigensync::Sweep;
 use std::sync::Arc;
 use std::time::Instant;
 
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{DynamicsError, Method, Observables, Outcome, Replica, Schedule, Simulation};
 
-use crate::plan::{Plan, Sweep};
+use crate::plan::Plan;
 
 /// Node steps of a trial; a large network takes the twenty samples that there are at least.
 const NODE_STEPS: f64 = 2e6;
@@ -37,17 +38,17 @@ pub struct Trial {
 
 /// Of all tangent vectors that the master stability function takes.
 pub fn of_msf(plan: &Plan) -> Trial {
-    let planned = &plan.msf.times;
+    let planned = &plan.study.msf.times;
     // Twenty blocks of one interval each, shorter where steps are very many.
     let renormalise = planned.renormalise.min(TANGENT_STEPS / 20.0 * planned.step);
     let times = Times { transient: 0.0, average: 20.0 * renormalise, renormalise, ..*planned };
     let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
     let node = &plan.node;
     let (seconds, exponents) =
-        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, &|_| ()));
+        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, dynamics::QUIET));
     let per_step = seconds / (16.0 * times.steps() as f64);
     Trial {
-        seconds: per_step * plan.msf_steps() as f64,
+        seconds: per_step * plan.study.msf_steps() as f64,
         escaped: matches!(exponents, Err(DynamicsError::Escaped { .. })),
     }
 }
@@ -94,7 +95,7 @@ struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     fn new(plan: &'a Plan, sweep: &'a Sweep) -> Self {
-        let n_nodes = plan.network.n_nodes() as f64;
+        let n_nodes = plan.study.network.n_nodes() as f64;
         let replicas = spread(sweep, n_nodes);
         let samples = NODE_STEPS / n_nodes / replicas.len() as f64;
         let samples = samples.clamp(SAMPLES[0], SAMPLES[1]).round();
@@ -117,15 +118,15 @@ impl<'a> Bench<'a> {
         let simulation = Simulation {
             dynamics: Arc::new(self.plan.node.model),
             coupling: self.plan.node.coupling.clone(),
-            matrix: self.plan.matrix.matrix(),
+            matrix: self.plan.study.matrix.matrix(),
             method: self.sweep.method,
             schedule: self.schedule,
             observables,
             kick: self.sweep.kick,
-            instruction_set: self.plan.msf.instruction_set,
+            instruction_set: self.plan.study.msf.instruction_set,
         };
         let replicas = &self.replicas;
-        let (seconds, runs) = timed(|| simulation.run(replicas, &|_| ()));
+        let (seconds, runs) = timed(|| simulation.run(replicas, dynamics::QUIET));
         let completed = |outcome: &Outcome| matches!(outcome, Outcome::Completed(_));
         let escaped = runs.map_or(true, |runs| runs.iter().any(|run| !completed(&run.outcome)));
         Trial { seconds, escaped }

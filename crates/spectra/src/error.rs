@@ -6,6 +6,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SpectraError {
+    /// Whoever is told of progress wanted to stop.
+    #[error("the search for modes was stopped before its end")]
+    Cancelled,
     /// No modes were asked for.
     #[error("0 modes were asked for; a spectrum has at least one")]
     NoModes,
@@ -55,6 +58,12 @@ pub enum SpectraError {
         /// The shift μ.
         shift: f64,
     },
+    /// ARPACK was asked for in a build without it.
+    #[error(
+        "ARPACK was asked for, but this build is without it; build with the feature `arpack` of \
+         `spectra`, or leave the choice of the solver free"
+    )]
+    ArpackNotBuilt,
     /// ARPACK cannot find all modes.
     #[error(
         "{requested} modes of a network of {n_nodes} nodes were asked of ARPACK, which finds at \
@@ -85,6 +94,36 @@ pub enum SpectraError {
         strictest: f64,
         /// The largest allowed.
         loosest: f64,
+    },
+    /// The matrix is not similar to a symmetric one by any scale of its nodes: eigenvalues may be
+    /// complex, which no solver here finds.
+    #[error(
+        "the coupling matrix is neither symmetric nor similar to a symmetric matrix: row {row}, column \
+         {column} has {value} and row {column}, column {row} has {transposed} (from 0), which no scale \
+         of the nodes balances; its eigenvalues may be complex, and only real spectra are computed"
+    )]
+    NotSymmetric {
+        /// Row of an entry w_ij, from 0.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// w_ij.
+        value: f64,
+        /// w_ji.
+        transposed: f64,
+    },
+    /// A negative link: eigenvalue 0 need not be the largest then, which every solver here builds on.
+    #[error(
+        "row {row}, column {column} (from 0) of the coupling matrix is {value}; spectra are computed \
+         for links that are not negative"
+    )]
+    NegativeLink {
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        value: f64,
     },
     /// An entry of the coupling matrix overflowed.
     #[error("row {node} of the coupling matrix contains {value}")]

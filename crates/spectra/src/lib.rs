@@ -1,53 +1,35 @@
 //! Leading eigenvalues, eigenvectors and eigenspaces of a coupling matrix, with none lost.
 //!
-//! W v_k = λ_k v_k with λ_1 ≥ λ_2 ≥ …. Both solvers work on the symmetric matrix S similar to W and
+//! W v_k = λ_k v_k with λ_1 ≥ λ_2 ≥ …. All solvers work on the symmetric matrix S similar to W and
 //! take its eigenvectors u to node space by v = D^{-1/2} u; see [`graph::CouplingMatrix`].
 //!
 //! Entry: [`leading_modes`]. Knows nothing of what the modes are for.
 
-mod arpack;
-mod basis;
-mod block;
-mod chebyshev;
-mod completeness;
-mod davidson;
-mod dense;
-mod dissection;
 mod eigenspace;
 mod error;
-mod expansion;
-mod factorisation;
-mod inertia;
-mod inverse;
-mod iterative;
-mod kernel;
-mod krylov;
-mod lanczos;
-mod long_sequence;
-mod look;
-mod node_space;
-mod operator;
-mod orthonormal;
-mod pace;
-mod probing;
-mod product;
 mod progress;
-mod projected;
-mod random;
+mod real_modes;
 mod request;
-mod ritz;
-mod separator;
-mod slow_modes;
-mod smallest;
 mod spectrum;
-mod subspace;
-mod verification;
-mod wanted;
 
+mod completeness;
+mod factorisation;
+mod found;
+mod matrix;
+mod modes;
+mod plan;
+mod recurrences;
+mod smallest_eigenvalue;
+mod solvers;
+mod subspace;
+mod vectors;
+
+pub use eigenspace::{Eigenspace, Eigenvalue};
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
+pub use real_modes::RealModes;
 pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
-pub use smallest::smallest_eigenvalue;
+pub use smallest_eigenvalue::smallest_eigenvalue;
 pub use spectrum::{Solver, Spectrum, Verification};
 pub use subspace::subspace_distance;
 
@@ -63,7 +45,7 @@ use graph::CouplingMatrix;
 /// largest weight does not tell from 0 has eigenvalues of its own, as the weak links make them.
 ///
 /// Every eigenpair satisfies ‖S u − λ u‖ ≤ `tolerance` · max_i |w_ii| with ‖u‖ = 1 (for the dense
-/// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Spectrum::residuals`] are those of W itself
+/// solver also allowed is N · 10⁻¹⁵ · max_i |w_ii|). [`Eigenspace::residuals`] are those of W itself
 /// in node space, which differ from these by at most √(max k_i / min k_i) for a normalized matrix.
 ///
 /// The same matrix and request give the same bits on the same machine, whatever was solved before
@@ -71,29 +53,28 @@ use graph::CouplingMatrix;
 ///
 /// # Errors
 /// [`SpectraError::NoModes`], [`SpectraError::TooManyModes`], [`SpectraError::BadTolerance`],
-/// [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
-/// met; [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
+/// [`SpectraError::ArpackNotBuilt`], [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
+/// met; [`SpectraError::NotSymmetric`] for a matrix that is not similar to a symmetric one and
+/// [`SpectraError::NegativeLink`] for one with a negative link, which no solver takes yet;
+/// [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
 /// allowed does not suffice.
 pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, SpectraError> {
-    leading_modes_with(w, request, &|_| ())
+    leading_modes_with(w, request, &|_| std::ops::ControlFlow::Continue(()))
 }
 
-/// The same as [`leading_modes`], telling on the way how far it has come.
+/// The same as [`leading_modes`], telling on the way how far it has come, and stopping where that is
+/// wanted; the dense solver and ARPACK tell of nothing.
 ///
 /// # Errors
-/// Those of [`leading_modes`].
+/// Those of [`leading_modes`], and [`SpectraError::Cancelled`].
 pub fn leading_modes_with(
     w: &CouplingMatrix,
     request: &Request,
     progress: Progress<'_>,
 ) -> Result<Spectrum, SpectraError> {
+    let w = &matrix::symmetric::symmetric_form(w)?;
     let plan = request.resolve(w)?;
-    let (found, solver, verification) = match plan.choice {
-        SolverChoice::Dense => {
-            (dense::leading(w.symmetric(), &plan)?, Solver::Dense, Verification::Dense)
-        }
-        _ => iterative::leading(w, &plan, progress)?,
-    };
-    node_space::spectrum(w, found, &plan, (solver, verification))
+    let (found, solver, verification) = solvers::leading(w, &plan, progress)?;
+    modes::node_space::spectrum(w, found, &plan, (solver, verification))
 }

@@ -1,5 +1,7 @@
 //! What a long solve tells while it runs.
 
+use std::ops::ControlFlow;
+
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advance {
@@ -11,5 +13,5 @@ pub struct Advance {
     pub wanted: usize,
 }
 
-/// Called whenever a solver has come further, from whichever thread it works on.
-pub type Progress<'a> = &'a (dyn Fn(Advance) + Sync);
+/// Called whenever a solver has come further, from whichever thread it works on; says whether to go on.
+pub type Progress<'a> = &'a (dyn Fn(Advance) -> ControlFlow<()> + Sync);

@@ -1,6 +1,6 @@
-//! The spectrum of W: eigenvalues descending, eigenvectors, residuals and eigenspaces.
+//! The spectrum of W: its eigenspaces, how they were found, and how it is known that none is missing.
 
-use std::ops::Range;
+use crate::eigenspace::Eigenspace;
 
 /// How a spectrum was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -39,20 +39,11 @@ pub enum Verification {
     },
 }
 
-/// Leading modes of a coupling matrix.
+/// Leading modes of a coupling matrix, eigenspace by eigenspace.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Spectrum {
-    /// λ_1 ≥ λ_2 ≥ …, those computed.
-    pub eigenvalues: Vec<f64>,
-    /// v_1, v_2, …, one vector of length N a mode, unit 2-norm in node space; within an eigenspace
-    /// orthonormal in node space. The component of largest magnitude is positive; where several are
-    /// largest within 1e-6 of it, that of the lowest node. Inside an eigenspace the basis is one of
-    /// many: only the span has a meaning.
-    pub eigenvectors: Vec<Vec<f64>>,
-    /// ‖W v_k − λ_k v_k‖ of each mode.
-    pub residuals: Vec<f64>,
-    /// Runs of equal eigenvalues, as ranges of mode indices (0-based) that cover all modes in order.
-    pub eigenspaces: Vec<Range<usize>>,
+    /// Those computed, Re λ descending, at least one, none of them cut.
+    pub eigenspaces: Vec<Eigenspace>,
     /// Neighbouring eigenvalues that differ by at most this are one eigenspace: the larger of
     /// 1e-10 max_i |w_ii| and ten times the largest residual allowed. Those so close to 0 are told
     /// apart on their own scale instead, and from the zero modes, one for each component.
@@ -70,16 +61,24 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// How far eigenvalue λ_k, counted from 0, may be off. An eigenvalue lies within the residual of it.
-    /// Those within [`Self::tolerance`] of 0 are Rayleigh quotients found by differences, and off by
-    /// r²/gap only, r the residual and gap the distance to all others (Parlett, The Symmetric Eigenvalue
-    /// Problem (1980), Sec. 11.7).
-    pub fn error(&self, k: usize) -> f64 {
-        let (lambda, residual) = (self.eigenvalues[k], self.residuals[k]);
-        let is_slow = |lambda: &f64| lambda.abs() <= self.tolerance;
-        match self.eigenvalues.iter().find(|lambda| !is_slow(lambda)) {
-            Some(next) if is_slow(&lambda) => residual.min(residual * residual / next.abs()),
-            _ => residual,
-        }
+    /// Number of nodes N.
+    pub fn n_nodes(&self) -> usize {
+        self.eigenspaces[0].basis[0].len()
+    }
+
+    /// Number of modes computed: the dimensions of all eigenspaces.
+    pub fn n_modes(&self) -> usize {
+        self.eigenspaces.iter().map(|space| space.basis.len()).sum()
+    }
+
+    /// Whether all N modes were computed.
+    pub fn is_whole(&self) -> bool {
+        self.n_modes() == self.n_nodes()
+    }
+
+    /// The largest ‖W v − λ v‖ of any mode.
+    pub fn largest_residual(&self) -> f64 {
+        let residuals = self.eigenspaces.iter().flat_map(|space| &space.residuals);
+        residuals.copied().fold(0.0, f64::max)
     }
 }

@@ -7,7 +7,7 @@
 ///
 /// This is how printed eigenvectors, rounded and of an arbitrary basis, are compared with computed
 /// ones: by their eigenspace.
-pub fn subspace_distance(one: &[Vec<f64>], other: &[Vec<f64>]) -> f64 {
+pub fn subspace_distance(one: &[impl AsRef<[f64]>], other: &[impl AsRef<[f64]>]) -> f64 {
     let (one, other) = (orthonormal(one), orthonormal(other));
     let farthest = |vectors: &[Vec<f64>], basis: &[Vec<f64>]| {
         vectors.iter().map(|v| norm(&without(v, basis))).fold(0.0, f64::max)
@@ -16,10 +16,10 @@ pub fn subspace_distance(one: &[Vec<f64>], other: &[Vec<f64>]) -> f64 {
 }
 
 /// Modified Gram–Schmidt.
-fn orthonormal(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn orthonormal(vectors: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for vector in vectors {
-        let rest = without(vector, &basis);
+        let rest = without(vector.as_ref(), &basis);
         let length = norm(&rest);
         basis.push(rest.iter().map(|x| x / length).collect());
     }

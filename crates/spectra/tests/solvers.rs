@@ -5,17 +5,17 @@ mod common;
 use std::ops::Range;
 
 use common::{
-    BOTH, arpack, check_eigenvalues, complete, condition, dense, dot, network, ring, scale, solve,
-    star, torus,
+    BOTH, ByMode, ITERATIVE, arpack, check_eigenvalues, complete, condition, dense, dot, network,
+    scale, solve, star, torus,
 };
 use graph::generators::{LinkProbability, communities};
 use graph::{CouplingMatrix, Network, Normalization};
 use proptest::prelude::*;
-use spectra::{Modes, Request, Solver, SolverChoice, SpectraError, Spectrum, leading_modes};
+use spectra::{Modes, Request, Solver, SolverChoice, SpectraError, leading_modes};
 
 /// Asserts that every eigenspace of `leading` is the same subspace of node space as in `all`, up to
 /// what the residuals and the gap to its neighbours allow (Davis & Kahan).
-fn check_same_eigenspaces(w: &CouplingMatrix, leading: &Spectrum, all: &Spectrum) {
+fn check_same_eigenspaces(w: &CouplingMatrix, leading: &ByMode, all: &ByMode) {
     for (range, other) in leading.eigenspaces.iter().zip(&all.eigenspaces) {
         assert_eq!(range, other);
         let residual = largest(&leading.residuals) + largest(&all.residuals);
@@ -30,7 +30,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// Distance from an eigenspace to the nearest other eigenvalue.
-fn gap(all: &Spectrum, range: &Range<usize>) -> f64 {
+fn gap(all: &ByMode, range: &Range<usize>) -> f64 {
     let lambda = &all.eigenvalues;
     let above =
         range.start.checked_sub(1).map_or(f64::INFINITY, |k| lambda[k] - lambda[range.start]);
@@ -78,7 +78,7 @@ proptest! {
             let w = CouplingMatrix::new(&network, normalization);
             let all = solve(&w, &dense());
             let n_modes = (1 + (part * (w.n_nodes() - 1) as f64) as usize).min(w.n_nodes() - 1);
-            for request in [arpack(n_modes), chebyshev(n_modes), shift_invert(n_modes)] {
+            for request in by_iteration(n_modes) {
                 let leading = solve(&w, &Request { seed, ..request });
                 check_eigenvalues(&leading, &all.eigenvalues, 1e-10 * scale(&w));
                 check_same_eigenspaces(&w, &leading, &all);
@@ -91,7 +91,7 @@ proptest! {
         let n_components = network.components().len();
         for normalization in BOTH {
             let w = CouplingMatrix::new(&network, normalization);
-            for request in [dense(), arpack(1), chebyshev(1), shift_invert(1)] {
+            for request in by_iteration(1).chain([dense()]) {
                 let spectrum = solve(&w, &request);
                 prop_assert_eq!(spectrum.eigenspaces[0].clone(), 0..n_components);
                 prop_assert!(spectrum.eigenvalues[0].abs() < 1e-12 * scale(&w));
@@ -111,10 +111,15 @@ proptest! {
 }
 
 /// The bits of all that a spectrum reports.
-fn bits(spectrum: &Spectrum) -> (Vec<u64>, Vec<u64>, Vec<u64>, usize) {
+fn bits(spectrum: &ByMode) -> (Vec<u64>, Vec<u64>, Vec<u64>, usize) {
     let of = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-    let Spectrum { eigenvalues, eigenvectors, residuals, products, .. } = spectrum;
+    let ByMode { eigenvalues, eigenvectors, residuals, products, .. } = spectrum;
     (of(eigenvalues), of(&eigenvectors.concat()), of(residuals), *products)
+}
+
+/// The request to every iterative solver.
+fn by_iteration(n_modes: usize) -> impl Iterator<Item = Request> {
+    ITERATIVE.iter().map(move |&solver| common::with(solver, Modes::Leading(n_modes)))
 }
 
 fn chebyshev(n_modes: usize) -> Request {
@@ -130,7 +135,7 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
     let with = |network: &Network, request| {
         (CouplingMatrix::new(network, Normalization::Laplacian), request)
     };
-    vec![
+    let all = vec![
         with(&torus(12), arpack(20)),
         with(&complete(30), arpack(2)),
         with(&star(40), arpack(3)),
@@ -140,7 +145,8 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
         with(&complete(30), shift_invert(2)),
         with(&torus(60), chebyshev(9)),
         with(&torus(60), shift_invert(9)),
-    ]
+    ];
+    all.into_iter().filter(|(_, request)| request.solver.is_built()).collect()
 }
 
 /// A ring of 400 nodes, which two of them cut in halves, with a leaf on every fifth, and a path of its own.
@@ -221,7 +227,7 @@ fn another_seed_gives_the_same_eigenspaces() {
     let w = CouplingMatrix::new(&torus(12), Normalization::Laplacian);
     let all = solve(&w, &dense());
     for seed in 0..20 {
-        for request in [arpack(20), chebyshev(20), shift_invert(20)] {
+        for request in by_iteration(20) {
             let leading = solve(&w, &Request { seed, ..request });
             assert_eq!(leading.eigenvalues.len(), 21);
             check_same_eigenspaces(&w, &leading, &all);
@@ -229,6 +235,7 @@ fn another_seed_gives_the_same_eigenspaces() {
     }
 }
 
+#[cfg(feature = "arpack")]
 #[test]
 fn a_cut_eigenspace_is_completed_within_the_bound_and_refused_beyond_it() {
     let w = CouplingMatrix::new(&complete(150), Normalization::Laplacian);
@@ -248,9 +255,10 @@ fn a_cut_eigenspace_is_completed_within_the_bound_and_refused_beyond_it() {
     }
 }
 
+#[cfg(feature = "arpack")]
 #[test]
 fn bounded_work_reports_how_many_modes_converged() {
-    let w = CouplingMatrix::new(&ring(1000), Normalization::Laplacian);
+    let w = CouplingMatrix::new(&common::ring(1000), Normalization::Laplacian);
     let with = |max_products| leading_modes(&w, &Request { max_products, ..arpack(10) });
     for max_products in [0, 7, 60, 1000] {
         match with(max_products) {
@@ -263,17 +271,20 @@ fn bounded_work_reports_how_many_modes_converged() {
     }
 }
 
+#[cfg(feature = "arpack")]
 #[test]
 fn a_looser_tolerance_is_kept_and_finds_the_same_eigenspaces() {
     let w = CouplingMatrix::new(&torus(12), Normalization::Laplacian);
     let strict = solve(&w, &arpack(20));
     let loose = leading_modes(&w, &Request { tolerance: 1e-5, ..arpack(20) }).unwrap();
+    let loose = common::by_mode(&loose);
     assert!(loose.residuals.iter().all(|&residual| residual <= 1e-5 * scale(&w)));
     assert_eq!((strict.tolerance, loose.tolerance), (1e-10 * 4.0, 10.0 * (1e-5 * 4.0)));
     assert_eq!(loose.eigenspaces, strict.eigenspaces);
     check_eigenvalues(&loose, &strict.eigenvalues, 1e-5 * scale(&w));
 }
 
+#[cfg(feature = "arpack")]
 #[test]
 fn work_that_ends_during_the_check_leaves_completeness_unproven() {
     let w = CouplingMatrix::new(&torus(12), Normalization::Laplacian);
@@ -306,7 +317,8 @@ fn the_solver_is_chosen_by_size_and_count() {
 
 #[test]
 fn without_small_separators_medium_networks_go_to_arpack_and_large_ones_to_filters() {
-    for (n_nodes, expected) in [(3000, Solver::Arpack), (6000, Solver::Chebyshev)] {
+    let medium = if SolverChoice::Arpack.is_built() { Solver::Arpack } else { Solver::Chebyshev };
+    for (n_nodes, expected) in [(3000, medium), (6000, Solver::Chebyshev)] {
         let size = n_nodes / 3;
         let probability =
             LinkProbability::Uniform { within: 16.0 / size as f64, between: 1.0 / size as f64 };
@@ -325,7 +337,7 @@ fn requests_that_cannot_be_met_say_so_with_numbers() {
     assert_eq!(message(leading(0)), "0 modes were asked for; a spectrum has at least one");
     assert_eq!(message(leading(6)), "6 modes were asked for, but a network of 5 nodes has 5");
     let all_of_arpack = Request { solver: SolverChoice::Arpack, ..Request::default() };
-    for request in [all_of_arpack, arpack(5)] {
+    for request in [all_of_arpack, arpack(5)].into_iter().filter(|r| r.solver.is_built()) {
         assert_eq!(
             leading_modes(&w, &request).unwrap_err(),
             SpectraError::BeyondArpack { requested: 5, n_nodes: 5 }
@@ -333,10 +345,45 @@ fn requests_that_cannot_be_met_say_so_with_numbers() {
     }
     for tolerance in [0.0, -1.0, f64::NAN, 0.1] {
         assert!(matches!(
-            leading_modes(&w, &Request { tolerance, ..arpack(1) }),
+            leading_modes(&w, &Request { tolerance, ..chebyshev(1) }),
             Err(SpectraError::BadTolerance { .. })
         ));
     }
+}
+
+#[cfg(not(feature = "arpack"))]
+#[test]
+fn a_build_without_arpack_says_so_and_solves_by_the_others() {
+    let w = CouplingMatrix::new(&torus(30), Normalization::Laplacian);
+    let found = leading_modes(&w, &arpack(4));
+    assert_eq!(found.unwrap_err(), SpectraError::ArpackNotBuilt);
+    let free = Request { modes: Modes::Leading(4), ..Request::default() };
+    assert_eq!(solve(&w, &free).eigenspaces, [0..1, 1..5]);
+}
+
+#[test]
+fn a_matrix_given_as_it_is_has_the_spectrum_of_its_network() {
+    for normalization in BOTH {
+        let w = CouplingMatrix::new(&common::nepal(), normalization);
+        let given = CouplingMatrix::as_given(w.matrix()).unwrap();
+        let (all, found) = (solve(&w, &dense()), solve(&given, &dense()));
+        assert_eq!(found.eigenspaces, all.eigenspaces);
+        check_eigenvalues(&found, &all.eigenvalues, 1e-14 * scale(&w));
+        check_same_eigenspaces(&w, &found, &all);
+    }
+}
+
+#[test]
+fn a_directed_and_a_signed_matrix_are_refused_with_the_entry_that_makes_them_so() {
+    let directed = [[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0], [1.0, 0.0, -1.0]];
+    let signed = [[-1.0, 1.5, -0.5], [1.5, -2.5, 1.0], [-0.5, 1.0, -0.5]];
+    let given = |rows| CouplingMatrix::from_rows(rows).unwrap();
+    let (directed, signed) = (given(&directed), given(&signed));
+    let expected = SpectraError::NotSymmetric { row: 0, column: 1, value: 1.0, transposed: 0.0 };
+    assert_eq!(leading_modes(&directed, &dense()).unwrap_err(), expected);
+    assert_eq!(spectra::smallest_eigenvalue(&directed).unwrap_err(), expected);
+    let expected = SpectraError::NegativeLink { row: 0, column: 2, value: -0.5 };
+    assert_eq!(leading_modes(&signed, &dense()).unwrap_err(), expected);
 }
 
 #[test]

@@ -3,17 +3,14 @@
 
 mod common;
 
-use common::{BOTH, network};
+use common::{BOTH, ByMode, ITERATIVE, by_mode, network};
 use graph::{CouplingMatrix, Network, Normalization};
-use spectra::{Modes, Request, SolverChoice, Spectrum, leading_modes};
+use spectra::{Modes, Request, SolverChoice, leading_modes};
 
-const SOLVERS: [SolverChoice; 4] =
-    [SolverChoice::Dense, SolverChoice::Arpack, SolverChoice::Chebyshev, SolverChoice::ShiftInvert];
-
-fn solved(network: &Network, normalization: Normalization, n: usize, by: SolverChoice) -> Spectrum {
+fn solved(network: &Network, normalization: Normalization, n: usize, by: SolverChoice) -> ByMode {
     let w = CouplingMatrix::new(network, normalization);
     let request = Request { modes: Modes::Leading(n), solver: by, ..Request::default() };
-    leading_modes(&w, &request).unwrap_or_else(|error| panic!("{by:?}: {error}"))
+    by_mode(&leading_modes(&w, &request).unwrap_or_else(|error| panic!("{by:?}: {error}")))
 }
 
 #[track_caller]
@@ -31,11 +28,13 @@ fn tied_rings(first: usize, strong: f64, weak: f64) -> Vec<(usize, usize, f64)> 
 fn a_node_tied_by_a_link_twelve_decades_weaker_has_an_eigenvalue_of_its_own() {
     // a — b by 1.4e12, c to b by 1: c against the pair, λ = −(1 + 1/2) up to 1e-12.
     let network = network(3, &[(0, 1, 1.4e12), (1, 2, 1.0)]);
-    let found = leading_modes(
-        &CouplingMatrix::new(&network, Normalization::Laplacian),
-        &Request::default(),
-    )
-    .unwrap();
+    let found = by_mode(
+        &leading_modes(
+            &CouplingMatrix::new(&network, Normalization::Laplacian),
+            &Request::default(),
+        )
+        .unwrap(),
+    );
     assert_eq!(found.eigenspaces, [0..1, 1..2, 2..3]);
     assert_eq!(found.eigenvalues[0], 0.0);
     check_close(found.eigenvalues[1], -1.5, 1e-11);
@@ -49,7 +48,7 @@ fn zero_modes_are_as_many_as_components_by_every_solver() {
     let mut links = tied_rings(0, 1e12, 1.0);
     links.extend(tied_rings(80, 1e12, 3.0));
     let network = network(161, &links);
-    for solver in SOLVERS {
+    for solver in ITERATIVE.iter().copied().chain([SolverChoice::Dense]) {
         let found = solved(&network, Normalization::Laplacian, 5, solver);
         assert_eq!(found.eigenspaces[..3], [0..3, 3..4, 4..5], "{solver:?}");
         assert_eq!(found.eigenvalues[..3], [0.0; 3]);
@@ -72,7 +71,7 @@ fn links_of_every_decade_have_eigenvalues_of_their_own() {
     let links: Vec<_> = (1..n).map(|k| (k - 1, k, 1e15 * 1e-3f64.powi(k as i32 - 1))).collect();
     for normalization in BOTH {
         let w = CouplingMatrix::new(&network(n, &links), normalization);
-        let found = leading_modes(&w, &Request::default()).unwrap();
+        let found = by_mode(&leading_modes(&w, &Request::default()).unwrap());
         assert_eq!(found.eigenspaces.len(), n, "{:?}", found.eigenvalues);
         assert!(found.eigenvalues[1..].iter().all(|&lambda| lambda < 0.0));
         if normalization == Normalization::Laplacian {
@@ -92,7 +91,7 @@ fn copies_of_a_weak_eigenvalue_are_one_eigenspace() {
     // Three nodes tied by equal weak links to one of a strong pair: λ = −w twice, and once with it.
     let links = [(0, 1, 1e13), (0, 2, 2.0), (0, 3, 2.0), (0, 4, 2.0)];
     let w = CouplingMatrix::new(&network(5, &links), Normalization::Laplacian);
-    let found = leading_modes(&w, &Request::default()).unwrap();
+    let found = by_mode(&leading_modes(&w, &Request::default()).unwrap());
     assert_eq!(found.eigenspaces, [0..1, 1..3, 3..4, 4..5]);
     check_close(found.eigenvalues[1], -2.0, 1e-10);
     // Against the pair as one node of twice the mass: −2 (1 + 3/2).

@@ -3,7 +3,7 @@
 
 use rand_core::Rng;
 use rand_pcg::Pcg64;
-use spectra::{Solver, Spectrum};
+use spectra::{Eigenspace, Solver, Spectrum};
 
 /// One spectrum, and a threshold on δe that tells its clusters apart.
 pub struct Fixture {
@@ -121,10 +121,13 @@ fn spectrum(n_nodes: usize, modes: Vec<Vec<f64>>, dimensions: &[usize]) -> Spect
         eigenspaces.push(start..start + dimension);
     }
     Spectrum {
-        residuals: vec![1e-14; eigenvalues.len()],
-        eigenvalues,
-        eigenvectors,
-        eigenspaces,
+        eigenspaces: Eigenspace::divided(
+            &eigenvalues,
+            eigenvectors,
+            &vec![1e-14; eigenvalues.len()],
+            &eigenspaces,
+            -1e3,
+        ),
         tolerance: 1e-10,
         solver: Solver::Arpack,
         cutoff: None,
@@ -143,7 +146,7 @@ impl Random {
 
     /// Uniform in [0, 1).
     fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+        graph::unit_interval(self.0.next_u64())
     }
 
     /// Standard normal, by Box and Muller.

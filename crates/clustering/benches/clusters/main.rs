@@ -56,13 +56,13 @@ fn main() -> io::Result<()> {
 
 /// The first eight components after the constant one, node by node.
 fn rows(fixture: &Fixture) -> Vec<[f64; 8]> {
-    let modes = &fixture.spectrum.eigenvectors[1..9];
+    let modes = &fixture.spectrum.real_modes().eigenvectors[1..9];
     (0..modes[0].len()).map(|i| std::array::from_fn(|k| modes[k][i])).collect()
 }
 
 /// The distance with all modes unstable, its exact clusters and those at the threshold.
 fn clusters(fixture: &Fixture) -> (EigenvectorDistance, Partition, Partition) {
-    let modes: Vec<usize> = (1..fixture.spectrum.eigenvalues.len()).collect();
+    let modes: Vec<usize> = (1..fixture.spectrum.n_modes()).collect();
     let distance = EigenvectorDistance::new(&fixture.spectrum, &modes).unwrap();
     let exact = distance.exact_clusters().unwrap();
     let threshold = distance.clusters_within(fixture.threshold).unwrap();
@@ -84,7 +84,7 @@ fn write_all(folder: &Path, largest: usize) -> io::Result<()> {
     for n_nodes in SIZES.into_iter().filter(|&n_nodes| n_nodes <= largest) {
         for fixture in fixtures::all(n_nodes) {
             let (distance, exact, threshold) = clusters(&fixture);
-            let modes = &fixture.spectrum.eigenvectors[1..];
+            let modes = &fixture.spectrum.real_modes().eigenvectors[1..];
             let file = fs::File::create(folder.join(format!("{}_{n_nodes}.rows", fixture.name)))?;
             let mut file = io::BufWriter::new(file);
             let n_spaces = fixture.spectrum.eigenspaces.len() - 1;

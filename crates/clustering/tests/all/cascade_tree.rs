@@ -164,7 +164,7 @@ fn a_cluster_that_stays_together_is_cut_where_its_exact_synchrony_is_lost() {
     let spectrum = spectrum_of(&read(path), Normalization::Laplacian);
     let states = cascade(&spectrum, &region(8.0, None), ClusterRule::Threshold(0.5)).unwrap();
     let tree = only(CascadeTree::of_each_run(&merge_equal_clusters(&states), 2));
-    let critical = 8.0 / -spectrum.eigenvalues[1];
+    let critical = 8.0 / -spectrum.real_eigenvalues()[1];
     let cuts: Vec<_> =
         tree.clusters.iter().map(|c| (c.parent, c.size, c.epsilon, c.splits)).collect();
     let expected =

@@ -3,11 +3,11 @@
 use clustering::{ClusteringError, EigenvectorDistance, mean_over_bases};
 use graph::Normalization;
 use proptest::prelude::*;
-use spectra::Spectrum;
+use spectra::{Eigenvalue, Spectrum};
 
 use crate::fixtures::{
     Random, dot, leading, nepal, random_network, random_spectrum, read, rotated, six_nodes,
-    spectrum, spectrum_of,
+    spectrum, spectrum_of, vectors_mut, with_residuals,
 };
 
 fn distance(spectrum: &Spectrum, modes: impl IntoIterator<Item = usize>) -> EigenvectorDistance {
@@ -21,7 +21,8 @@ fn check_close(obtained: f64, expected: f64, tolerance: f64) {
 
 /// A spectrum with one eigenspace of random orthonormal vectors below the synchronous mode.
 fn one_eigenspace(n_nodes: usize, dimension: usize, seed: u64) -> Spectrum {
-    let vectors = random_spectrum(n_nodes, dimension + 1, seed).eigenvectors;
+    let spaces = random_spectrum(n_nodes, dimension + 1, seed).eigenspaces;
+    let vectors: Vec<_> = spaces.into_iter().flat_map(|space| space.basis).collect();
     let eigenvalue = |k| if k == 0 { 0.0 } else { -1.0 };
     spectrum(vectors.into_iter().enumerate().map(|(k, v)| (eigenvalue(k), v)).collect(), 1e-15)
 }
@@ -57,7 +58,7 @@ fn the_mean_over_bases_grows_as_root_two_d_over_pi() {
 fn simple_modes_give_the_sum_printed_in_the_paper() {
     let spectrum = six_nodes();
     let distance = distance(&spectrum, [1, 2]);
-    let v = &spectrum.eigenvectors;
+    let v = spectrum.real_modes().eigenvectors;
     for i in 0..6 {
         for j in 0..6 {
             let sum = (v[1][i] - v[1][j]).abs() + (v[2][i] - v[2][j]).abs();
@@ -100,7 +101,8 @@ fn the_distance_is_the_mean_over_random_bases_of_the_sum() {
     for dimension in [2, 3, 4, 7] {
         let spectrum = one_eigenspace(12, dimension, 5);
         let expected = distance(&spectrum, 1..=dimension).between(2, 9);
-        let x: Vec<f64> = spectrum.eigenvectors[1..].iter().map(|v| v[2] - v[9]).collect();
+        let x: Vec<f64> =
+            spectrum.real_modes().eigenvectors[1..].iter().map(|v| v[2] - v[9]).collect();
         let mut random = Random::new(dimension as u64);
         let (mut sum, mut squares) = (0.0, 0.0);
         for _ in 0..SAMPLES {
@@ -124,7 +126,7 @@ fn zero_modes_of_two_components_tell_just_these_apart() {
     // Two triangles: the transverse zero mode is (1, 1, 1, −1, −1, −1)/√6 in any basis.
     let two_triangles = read("1 2\n2 3\n3 1\n4 5\n5 6\n6 4");
     let spectrum = spectrum_of(&two_triangles, Normalization::Laplacian);
-    assert_eq!(spectrum.eigenspaces, [0..2, 2..6]);
+    assert_eq!(spectrum.real_modes().eigenspaces, [0..2, 2..6]);
     for seed in 0..20 {
         let distance = distance(&rotated(spectrum.clone(), seed), [1]);
         assert_eq!(distance.n_modes(), 1);
@@ -185,8 +187,8 @@ fn exact_clusters_survive_the_solver_they_allow_for() {
     let noise = 1e-7;
     let mut rough = six_nodes();
     let mut random = Random::new(2);
-    rough.eigenvectors.iter_mut().flatten().for_each(|v| *v += noise * random.normal());
-    rough.residuals.fill(6.0 * noise);
+    vectors_mut(&mut rough).flatten().for_each(|v| *v += noise * random.normal());
+    let rough = with_residuals(rough, 6.0 * noise);
     let distance = distance(&rough, [1, 2]);
     assert!((1e-6..1e-4).contains(&distance.exact_tolerance()));
     assert_eq!(distance.exact_clusters().unwrap().nontrivial(), [[1, 5], [2, 4]]);
@@ -198,21 +200,20 @@ fn the_exact_tolerance_is_residual_over_gap() {
     // Unstable −2 and −2.5, the next is −4: gap 1.5, whatever lies between the unstable ones.
     // R = √(3² + 3²)·1e-8, tolerance 10 √2 R / gap.
     let mut spectrum = six_nodes();
-    spectrum.eigenvalues[2] = -2.5;
-    spectrum.residuals.fill(3e-8);
+    spectrum.eigenspaces[2].values[0] = Eigenvalue::real(-2.5);
+    let spectrum = with_residuals(spectrum, 3e-8);
     check_close(distance(&spectrum, [1, 2]).exact_tolerance() / 40e-8, 1.0, 1e-12);
-    spectrum.residuals.fill(0.0);
+    let spectrum = with_residuals(spectrum, 0.0);
     assert_eq!(distance(&spectrum, [1, 2]).exact_tolerance(), 1e-12);
 }
 
 #[test]
 fn exact_clusters_are_refused_when_eigenvectors_cannot_tell() {
-    let mut spectrum = six_nodes();
-    spectrum.residuals.fill(1e-3);
+    let spectrum = with_residuals(six_nodes(), 1e-3);
     let error = distance(&spectrum, [1]).exact_clusters().unwrap_err();
     assert!(matches!(error, ClusteringError::SpectrumTooRough { tolerance, limit }
         if tolerance > 0.01 && limit < 5e-4));
-    spectrum.residuals.fill(f64::NAN);
+    let spectrum = with_residuals(spectrum, f64::NAN);
     assert!(distance(&spectrum, [1]).exact_clusters().is_err());
 }
 

@@ -4,7 +4,7 @@ use graph::formats::edge_list;
 use graph::{CouplingMatrix, Network, Normalization, SparseMatrix};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
-use spectra::{Solver, Spectrum};
+use spectra::{Eigenspace, Solver, Spectrum};
 
 const TOLERANCE: f64 = 1e-8;
 
@@ -18,7 +18,7 @@ impl Random {
 
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+        graph::unit_interval(self.0.next_u64())
     }
 
     /// Standard normal, by Box and Muller.
@@ -52,18 +52,17 @@ pub fn spectrum(mut modes: Vec<(f64, Vec<f64>)>, residual: f64) -> Spectrum {
     modes.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (eigenvalues, eigenvectors): (Vec<f64>, Vec<Vec<f64>>) = modes.into_iter().unzip();
     let mut start = 0;
-    let eigenspaces = eigenvalues
+    let ranges: Vec<_> = eigenvalues
         .chunk_by(|a, b| a - b < TOLERANCE)
         .map(|run| {
             start += run.len();
             start - run.len()..start
         })
         .collect();
+    let residuals = vec![residual; eigenvalues.len()];
+    let none = f64::NEG_INFINITY;
     Spectrum {
-        residuals: vec![residual; eigenvalues.len()],
-        eigenvalues,
-        eigenvectors,
-        eigenspaces,
+        eigenspaces: Eigenspace::divided(&eigenvalues, eigenvectors, &residuals, &ranges, none),
         tolerance: TOLERANCE,
         solver: Solver::Dense,
         cutoff: None,
@@ -74,22 +73,34 @@ pub fn spectrum(mut modes: Vec<(f64, Vec<f64>)>, residual: f64) -> Spectrum {
 
 /// The first modes of a spectrum.
 pub fn leading(mut spectrum: Spectrum, n_modes: usize) -> Spectrum {
-    spectrum.eigenvalues.truncate(n_modes);
-    spectrum.eigenvectors.truncate(n_modes);
-    spectrum.residuals.truncate(n_modes);
-    spectrum.eigenspaces.retain(|space| space.start < n_modes);
-    spectrum.eigenspaces.last_mut().unwrap().end = n_modes;
+    let mut n_left = n_modes;
+    for space in &mut spectrum.eigenspaces {
+        space.values.truncate(n_left);
+        space.basis.truncate(n_left);
+        space.residuals.truncate(n_left);
+        n_left -= space.basis.len();
+    }
+    spectrum.eigenspaces.retain(|space| !space.basis.is_empty());
+    spectrum
+}
+
+/// The eigenvectors of a spectrum, mode by mode.
+pub fn vectors_mut(spectrum: &mut Spectrum) -> impl Iterator<Item = &mut Vec<f64>> {
+    spectrum.eigenspaces.iter_mut().flat_map(|space| &mut space.basis)
+}
+
+/// The same spectrum with one residual for all its modes.
+pub fn with_residuals(mut spectrum: Spectrum, residual: f64) -> Spectrum {
+    spectrum.eigenspaces.iter_mut().for_each(|space| space.residuals.fill(residual));
     spectrum
 }
 
 /// The same spectrum in other orthonormal bases of its eigenspaces.
 pub fn rotated(mut spectrum: Spectrum, seed: u64) -> Spectrum {
     let mut random = Random::new(seed);
-    for space in spectrum.eigenspaces.clone() {
-        let old = spectrum.eigenvectors[space.clone()].to_vec();
-        for (new, row) in
-            spectrum.eigenvectors[space.clone()].iter_mut().zip(random.orthogonal(old.len()))
-        {
+    for space in &mut spectrum.eigenspaces {
+        let old = space.basis.clone();
+        for (new, row) in space.basis.iter_mut().zip(random.orthogonal(old.len())) {
             for (node, component) in new.iter_mut().enumerate() {
                 *component = row.iter().zip(&old).map(|(r, v)| r * v[node]).sum();
             }
@@ -133,32 +144,34 @@ fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
 /// The spectrum of a network's coupling matrix, by Jacobi.
 pub fn spectrum_of(network: &Network, normalization: Normalization) -> Spectrum {
     let coupling = CouplingMatrix::new(network, normalization);
-    let scaled = |v: Vec<f64>| unit(v.iter().zip(coupling.scale()).map(|(v, s)| v * s).collect());
-    let modes = jacobi(dense(coupling.symmetric()));
+    let form = coupling.symmetric_form().unwrap();
+    let scaled = |v: Vec<f64>| unit(v.iter().zip(form.scale()).map(|(v, s)| v * s).collect());
+    let modes = jacobi(dense(form.symmetric()));
     let mut spectrum = spectrum(modes.into_iter().map(|(l, v)| (l, scaled(v))).collect(), 0.0);
     // Scaling leaves eigenvectors of one eigenvalue at an angle.
-    for space in spectrum.eigenspaces.clone() {
-        for k in space.clone() {
-            let (earlier, rest) = spectrum.eigenvectors.split_at_mut(k);
-            for other in &earlier[space.start..] {
+    for space in &mut spectrum.eigenspaces {
+        for k in 0..space.basis.len() {
+            let (earlier, rest) = space.basis.split_at_mut(k);
+            for other in earlier.iter() {
                 let along = dot(&rest[0], other);
                 rest[0].iter_mut().zip(other).for_each(|(v, o)| *v -= along * o);
             }
             rest[0] = unit(std::mem::take(&mut rest[0]));
         }
     }
-    spectrum.residuals = residuals(&spectrum, coupling.matrix());
+    set_residuals(&mut spectrum, coupling.matrix());
     spectrum
 }
 
 /// ‖Wv − λv‖ of every mode.
-fn residuals(spectrum: &Spectrum, w: &SparseMatrix) -> Vec<f64> {
+fn set_residuals(spectrum: &mut Spectrum, w: &SparseMatrix) {
     let w = dense(w);
-    let residual = |(l, v): (&f64, &Vec<f64>)| {
-        let row = |(r, v_i): (&Vec<f64>, &f64)| dot(r, v) - l * v_i;
-        w.iter().zip(v).map(row).map(|x| x * x).sum::<f64>().sqrt()
-    };
-    spectrum.eigenvalues.iter().zip(&spectrum.eigenvectors).map(residual).collect()
+    for space in &mut spectrum.eigenspaces {
+        for ((l, v), residual) in space.values.iter().zip(&space.basis).zip(&mut space.residuals) {
+            let row = |(r, v_i): (&Vec<f64>, &f64)| dot(r, v) - l.re * v_i;
+            *residual = w.iter().zip(v).map(row).map(|x| x * x).sum::<f64>().sqrt();
+        }
+    }
 }
 
 /// The constant and random orthonormal vectors, one eigenvalue −1, −2, … each.
@@ -218,9 +231,9 @@ fn checked(modes: Vec<(f64, Vec<f64>)>, edges: &str) -> Spectrum {
     let modes = modes.into_iter().map(|(l, v)| (l, unit(v))).collect();
     let mut spectrum = spectrum(modes, 0.0);
     let coupling = CouplingMatrix::new(&read(edges), Normalization::Laplacian);
-    spectrum.residuals = residuals(&spectrum, coupling.matrix());
-    assert!(spectrum.residuals.iter().all(|&r| r < 1e-13), "{:?}", spectrum.residuals);
-    assert_eq!(spectrum.eigenvalues.len(), coupling.n_nodes());
+    set_residuals(&mut spectrum, coupling.matrix());
+    assert!(spectrum.largest_residual() < 1e-13, "{}", spectrum.largest_residual());
+    assert!(spectrum.is_whole() && spectrum.n_nodes() == coupling.n_nodes());
     spectrum
 }
 

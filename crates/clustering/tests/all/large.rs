@@ -4,12 +4,12 @@ use clustering::{CascadeTree, ClusterRule, EigenvectorDistance, Partition, TreeE
 use msf::{Interval, StableRegion};
 use spectra::Spectrum;
 
-use crate::fixtures::rotated;
+use crate::fixtures::{rotated, vectors_mut};
 use crate::large_fixtures::{Fixture, all, communities, ring_of_cliques, scale_free};
 
 /// The distance with all transverse modes unstable.
 fn distance(spectrum: &Spectrum) -> EigenvectorDistance {
-    let modes: Vec<usize> = (1..spectrum.eigenvalues.len()).collect();
+    let modes: Vec<usize> = (1..spectrum.n_modes()).collect();
     EigenvectorDistance::new(spectrum, &modes).unwrap()
 }
 
@@ -68,7 +68,7 @@ fn rows_equal_up_to_the_tolerance_meet_wherever_they_lie() {
     // rounding, as there are a thousand pairs.
     let Fixture { mut spectrum, .. } = scale_free(10_000);
     let step = 0.9e-12 / 8f64.sqrt();
-    for v in &mut spectrum.eigenvectors[1..] {
+    for v in vectors_mut(&mut spectrum).skip(1) {
         v.iter_mut().skip(9).step_by(10).for_each(|x| *x += step);
     }
     let exact = distance(&spectrum).exact_clusters().unwrap();
@@ -81,7 +81,7 @@ fn a_hundred_thousand_equal_rows_are_one_cluster_at_once() {
     // All pairs would be five thousand million.
     let n = 100_000;
     let mut spectrum = communities(n).spectrum;
-    for (mode, v) in spectrum.eigenvectors.iter_mut().enumerate().skip(1) {
+    for (mode, v) in vectors_mut(&mut spectrum).enumerate().skip(1) {
         let level = 1.0 / (n as f64).sqrt();
         v.iter_mut().enumerate().for_each(|(i, x)| *x = if i < mode { -level } else { level });
     }

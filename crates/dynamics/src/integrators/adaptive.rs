@@ -8,34 +8,13 @@
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 
-use serde::Serialize;
-
+use super::{Adaptive, AdaptiveOrder};
 use crate::batches::Numbered;
 use crate::kicks::Kicks;
-use crate::node::MAX_COMPONENTS;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
+use crate::tile::{slices, slices_mut};
 use crate::{ESCAPE_RADIUS, Next, Observer, Outcome, Simulation, Snapshot, Start};
-
-/// Order of the adaptive method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum AdaptiveOrder {
-    /// Dormand–Prince 5(4).
-    Five,
-    /// Dormand–Prince 8(5,3).
-    Eight,
-}
-
-/// An adaptive method with its tolerances on the local error of each component.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Adaptive {
-    /// Which of the two.
-    pub order: AdaptiveOrder,
-    /// Relative tolerance.
-    pub relative_tolerance: f64,
-    /// Absolute tolerance, in the units of the components.
-    pub absolute_tolerance: f64,
-}
 
 /// Runs one replica to its end; none when the observer wanted to stop.
 pub(crate) fn run(
@@ -168,16 +147,9 @@ impl System<f64, DVector<f64>> for Flat<'_> {
     fn system(&self, _time: f64, y: &DVector<f64>, slope: &mut DVector<f64>) {
         let Simulation { dynamics, coupling, matrix, instruction_set, .. } = self.simulation;
         let n_nodes = matrix.rows();
-        let mut at: [&[f64]; MAX_COMPONENTS] = [&[]; MAX_COMPONENTS];
-        let mut n_components = 0;
-        for (at, component) in at.iter_mut().zip(y.as_slice().chunks(n_nodes)) {
-            *at = component;
-            n_components += 1;
-        }
-        let mut to: [&mut [f64]; MAX_COMPONENTS] = std::array::from_fn(|_| &mut [][..]);
-        for (to, component) in to.iter_mut().zip(slope.as_mut_slice().chunks_mut(n_nodes)) {
-            *to = component;
-        }
+        let n_components = y.len() / n_nodes;
+        let at = slices(y.as_slice().chunks(n_nodes));
+        let mut to = slices_mut(slope.as_mut_slice().chunks_mut(n_nodes));
         dynamics.flow(*instruction_set, &at[..n_components], &mut to[..n_components]);
         for (equation, component, weight) in coupling.derivative() {
             let (source, strength) = (at[component], self.epsilon * weight);

@@ -5,8 +5,6 @@ pub(crate) mod rk4;
 
 use serde::Serialize;
 
-pub use adaptive::{Adaptive, AdaptiveOrder};
-
 /// How the equations of a network are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Method {
@@ -14,4 +12,24 @@ pub enum Method {
     Rk4,
     /// Adaptive Dormand–Prince through `ode_solvers`, one replica at a time: the independent check.
     Adaptive(Adaptive),
+}
+
+/// Order of the adaptive method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum AdaptiveOrder {
+    /// Dormand–Prince 5(4).
+    Five,
+    /// Dormand–Prince 8(5,3).
+    Eight,
+}
+
+/// An adaptive method with its tolerances on the local error of each component.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Adaptive {
+    /// Which of the two.
+    pub order: AdaptiveOrder,
+    /// Relative tolerance.
+    pub relative_tolerance: f64,
+    /// Absolute tolerance, in the units of the components.
+    pub absolute_tolerance: f64,
 }

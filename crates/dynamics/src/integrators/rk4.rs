@@ -7,7 +7,7 @@
 //!
 //! Source: W. Kutta, Z. Math. Phys. 46, 435 (1901).
 
-use crate::node::MAX_COMPONENTS;
+use crate::tile::{MAX_COMPONENTS, slices, slices_mut};
 use crate::{InstructionSet, NodeDynamics, Scalar};
 
 /// Of each stage: its weight in the step, and how far it advances x for the next stage, both in h.
@@ -39,21 +39,14 @@ pub(crate) fn step<S: Scalar, const D: usize>(
 }
 
 /// One step of a single node whose equations are chosen at run time: the same operations.
-pub(crate) fn advance<N: NodeDynamics + ?Sized>(dynamics: &N, state: &mut [f64], h: f64) {
-    let (mut sum, mut ahead, mut slope) =
-        ([0.0; MAX_COMPONENTS], [0.0; MAX_COMPONENTS], [0.0; MAX_COMPONENTS]);
+pub(crate) fn advance(dynamics: &dyn NodeDynamics, state: &mut [f64], h: f64) {
     let n = state.len();
+    let (mut sum, mut ahead) = ([0.0; MAX_COMPONENTS], [0.0; MAX_COMPONENTS]);
+    let mut slope = [0.0; MAX_COMPONENTS];
     sum[..n].copy_from_slice(state);
     ahead[..n].copy_from_slice(state);
     for (weight, advance) in STAGES {
-        let mut at: [&[f64]; MAX_COMPONENTS] = [&[]; MAX_COMPONENTS];
-        for (at, x) in at.iter_mut().zip(ahead.chunks(1)) {
-            *at = x;
-        }
-        let mut to: [&mut [f64]; MAX_COMPONENTS] = std::array::from_fn(|_| &mut [][..]);
-        for (to, slope) in to.iter_mut().zip(slope.chunks_mut(1)) {
-            *to = slope;
-        }
+        let (at, mut to) = (slices(ahead.chunks(1)), slices_mut(slope.chunks_mut(1)));
         dynamics.flow(InstructionSet::Baseline, &at[..n], &mut to[..n]);
         for c in 0..n {
             sum[c] += slope[c] * (weight * h);

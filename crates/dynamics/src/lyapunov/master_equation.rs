@@ -8,16 +8,17 @@
 use std::marker::PhantomData;
 use std::ops::Mul;
 
-use super::{Growing, MAX_LANES, Tangents, estimates, log};
+use super::growth::{Growing, Tangents, estimates, log};
 use crate::instruction_set::Work;
 use crate::integrators::rk4::{self, Flow};
 use crate::random::initial_states;
+use crate::tile::TILE;
 use crate::{
     Dual, DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet, Lanes, Oscillator, Scalar,
 };
 
 /// Exponents of compiled equations, in as many lanes as they need, about one orbit where they have one.
-pub(crate) fn fused<O: Oscillator<D>, const D: usize>(
+pub(crate) fn exponents<O: Oscillator<D>, const D: usize>(
     oscillator: O,
     set: InstructionSet,
     tangents: &Tangents<'_>,
@@ -32,10 +33,10 @@ pub(crate) fn fused<O: Oscillator<D>, const D: usize>(
     match (one_orbit, of.len()) {
         (true, 1) => run!(f64, 1),
         (true, 2..=8) => run!(f64, 8),
-        (true, _) => run!(f64, MAX_LANES),
+        (true, _) => run!(f64, TILE),
         (false, ..=4) => run!(Lanes<4>, 4),
         (false, 5..=8) => run!(Lanes<8>, 8),
-        (false, _) => run!(Lanes<MAX_LANES>, MAX_LANES),
+        (false, _) => run!(Lanes<TILE>, TILE),
     }
 }
 
@@ -122,9 +123,8 @@ where
             tangent: Lanes([1.0; L]),
         });
         let count = tangents.len();
-        let blocks = plan.block_means(&mut Growth { equation, state }, |steps| {
-            progress(steps * count as u64);
-        })?;
+        let blocks = plan
+            .block_means(&mut Growth { equation, state }, |steps| progress(steps * count as u64))?;
         Ok(estimates(&blocks, count))
     }
 }

@@ -1,18 +1,17 @@
 //! The master equation of equations that are chosen at run time, sixteen tangents side by side, and all
 //! exponents of one orbit: the same operations as those of compiled equations, through memory.
 
-use super::{Growing, Tangents, estimates, log};
+use super::growth::{Growing, Tangents, estimates, log};
 use crate::integrators::rk4::STAGES;
-use crate::node::MAX_COMPONENTS;
 use crate::random::initial_states;
-use crate::stage::{TILE, Tile};
+use crate::tile::{TILE, Tile, slices, slices_mut};
 use crate::{
     DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet, Linearised, LinearisedMut, NodeDynamics,
 };
 
 /// Exponents of equations that are chosen at run time.
-pub(crate) fn by_flow<N: NodeDynamics + ?Sized>(
-    dynamics: &N,
+pub(super) fn exponents(
+    dynamics: &dyn NodeDynamics,
     set: InstructionSet,
     tangents: &Tangents<'_>,
 ) -> Result<Vec<Estimate>, DynamicsError> {
@@ -39,8 +38,8 @@ pub(crate) fn by_flow<N: NodeDynamics + ?Sized>(
 }
 
 /// Orbits with a tangent each, `[component][number]`.
-pub(super) struct Tiles<'a, N: ?Sized> {
-    dynamics: &'a N,
+pub(super) struct Tiles<'a> {
+    dynamics: &'a dyn NodeDynamics,
     set: InstructionSet,
     /// Equation, component and σ B of every entry of DH.
     damping: Vec<(usize, usize, Tile)>,
@@ -50,9 +49,9 @@ pub(super) struct Tiles<'a, N: ?Sized> {
     orthonormal: bool,
 }
 
-impl<'a, N: NodeDynamics + ?Sized> Tiles<'a, N> {
+impl<'a> Tiles<'a> {
     /// One isolated orbit with tangents along all axes, which are kept orthonormal.
-    pub(super) fn axes(dynamics: &'a N, set: InstructionSet, seed: u64) -> Self {
+    pub(super) fn axes(dynamics: &'a dyn NodeDynamics, set: InstructionSet, seed: u64) -> Self {
         let start = initial_states(dynamics.start(), 1, seed);
         let axis = |c: usize| std::array::from_fn(|number| f64::from(u8::from(number == c)));
         Self {
@@ -67,9 +66,10 @@ impl<'a, N: NodeDynamics + ?Sized> Tiles<'a, N> {
 
     fn slope(&self, at: &[Vec<Tile>; 2], slope: &mut [Vec<Tile>; 2]) {
         let n = self.value.len();
-        let [value, tangent] = at.each_ref().map(|tiles| slices(tiles));
+        let [value, tangent] = at.each_ref().map(|tiles| slices(tiles.iter().map(Tile::as_slice)));
         let [of_value, of_tangent] = slope;
-        let (mut to_value, mut to_tangent) = (slices_mut(of_value), slices_mut(of_tangent));
+        let mut to_value = slices_mut(of_value.iter_mut().map(Tile::as_mut_slice));
+        let mut to_tangent = slices_mut(of_tangent.iter_mut().map(Tile::as_mut_slice));
         self.dynamics.tangent_flow(
             self.set,
             Linearised { value: &value[..n], tangent: &tangent[..n] },
@@ -93,7 +93,7 @@ impl<'a, N: NodeDynamics + ?Sized> Tiles<'a, N> {
     }
 }
 
-impl<N: NodeDynamics + ?Sized> Growing<TILE> for Tiles<'_, N> {
+impl Growing<TILE> for Tiles<'_> {
     fn advance(&mut self, n_steps: u64, h: f64) {
         let mut slope = [self.value.clone(), self.tangent.clone()];
         for _ in 0..n_steps {
@@ -138,20 +138,4 @@ impl<N: NodeDynamics + ?Sized> Growing<TILE> for Tiles<'_, N> {
         }
         logs
     }
-}
-
-fn slices(tiles: &[Tile]) -> [&[f64]; MAX_COMPONENTS] {
-    let mut slices: [&[f64]; MAX_COMPONENTS] = [&[]; MAX_COMPONENTS];
-    for (slice, tile) in slices.iter_mut().zip(tiles) {
-        *slice = tile;
-    }
-    slices
-}
-
-fn slices_mut(tiles: &mut [Tile]) -> [&mut [f64]; MAX_COMPONENTS] {
-    let mut slices: [&mut [f64]; MAX_COMPONENTS] = std::array::from_fn(|_| &mut [][..]);
-    for (slice, tile) in slices.iter_mut().zip(tiles) {
-        *slice = tile;
-    }
-    slices
 }

@@ -13,8 +13,8 @@ pub use rossler::Rossler;
 use crate::lyapunov::Tangents;
 use crate::stage::Stage;
 use crate::{
-    DynamicsError, Estimate, InstructionSet, Linearised, LinearisedMut, Native, NodeDynamics,
-    Oscillator,
+    DynamicsError, Estimate, Fused, InstructionSet, Linearised, LinearisedMut, Native,
+    NodeDynamics, Oscillator,
 };
 
 /// Declares [`Model`]: one line here is all that a new oscillator needs beyond its own file.
@@ -48,6 +48,12 @@ macro_rules! models {
                 match self { $(Self::$name(o) => Native::new(*o).tangent_flow(set, at, slope)),* }
             }
 
+            fn fused(&self) -> Option<&dyn Fused> {
+                Some(self)
+            }
+        }
+
+        impl Fused for Model {
             fn advance(&self, state: &mut [f64], h: f64) {
                 match self { $(Self::$name(o) => Native::new(*o).advance(state, h)),* }
             }

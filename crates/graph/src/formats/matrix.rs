@@ -210,3 +210,8 @@ impl MatrixBuilder {
         Ok(RawNetwork::of_checked(labels, &self.entries, directed).map_err(as_in_file)?)
     }
 }
+
+/// A number of a file as an index: what does not fit into memory has been refused, or ends before.
+pub(crate) fn as_index(number: u64) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}

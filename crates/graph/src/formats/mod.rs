@@ -4,7 +4,6 @@ mod archive;
 mod binary;
 pub mod dense;
 pub mod edge_list;
-mod fields;
 pub mod graphml;
 mod labels;
 pub mod matlab;

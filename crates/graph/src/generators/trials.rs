@@ -7,6 +7,8 @@
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
+use crate::unit_interval;
+
 /// Keeps the draws apart from those of other parts that are given the same seed.
 const STREAM: u128 = 0x6e65_7477_6f72_6b73;
 
@@ -33,17 +35,12 @@ impl Trials {
             if probability == 0.0 || next >= n_trials {
                 return None;
             }
-            let failures = libm::log(1.0 - self.unit_interval()) / ln_failure;
+            let failures = libm::log(1.0 - unit_interval(self.0.next_u64())) / ln_failure;
             // The conversion rounds down, and towards the largest number where it must.
             let success = next.saturating_add(failures as u64);
             next = success.saturating_add(1);
             (success < n_trials).then_some(success)
         })
-    }
-
-    /// 53 random bits as a number in [0, 1).
-    fn unit_interval(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Claims about clusters: which there are, in which order they are lost, and their names.
 
+use eigensync::Known;
+use eigensync::numbers::plain;
 use std::collections::BTreeSet;
 
 use clustering::{Partition, RegionClusters};
@@ -9,8 +11,7 @@ use serde_json::{Value, json};
 use super::obtained::{not_predicted, nothing_left};
 use super::{Answer, Judge, Judged};
 use crate::plan::nodes_named;
-use crate::problem::{Result, plain};
-use crate::simulated::Known;
+use crate::problem::Result;
 use crate::spec::{Name, Quantity};
 
 /// Clusters without an order.
@@ -27,7 +28,7 @@ impl Judge<'_> {
         let (obtained, answer) = match self.clusters_at(epsilon) {
             Ok(found) => {
                 let clusters = found[0].as_deref().unwrap_or_default();
-                let shown = json!(named(clusters, &self.plan.network));
+                let shown = json!(named(clusters, &self.plan.study.network));
                 (shown, self.is_one_of(&stated, &found))
             }
             Err(why) => (Value::Null, why.map_or(Answer::Differs, Answer::CannotBeJudged)),
@@ -79,7 +80,7 @@ impl Judge<'_> {
 
     /// Clusters of regions as clusters of their nodes.
     fn of_regions(&self, clusters: &RegionClusters) -> Vec<Vec<usize>> {
-        let groups = self.plan.network.groups();
+        let groups = self.plan.study.network.groups();
         let nodes = |regions: Vec<usize>| {
             regions.iter().flat_map(|&region| groups[region].nodes.iter().copied()).collect()
         };
@@ -137,7 +138,7 @@ impl Judge<'_> {
 
     /// Node numbers of labels that the plan has checked.
     pub(super) fn nodes(&self, clusters: &[Vec<Name>]) -> Vec<Vec<usize>> {
-        let network = &self.plan.network;
+        let network = &self.plan.study.network;
         let nodes = |cluster: &Vec<Name>| {
             cluster.iter().filter_map(|name| nodes_named(network, name)).flatten().collect()
         };

@@ -6,13 +6,13 @@
 //! does for none, and cannot be judged otherwise. What was looked for and is not there differs; what was
 //! not computed cannot be judged.
 
+use eigensync::numbers::with_error;
 use std::fmt;
 
 use serde_json::{Value, json};
 
 use super::Answer;
 use crate::spec::Trend;
-use crate::stability::with_error;
 
 /// A number may be so many standard errors off.
 const ERRORS: f64 = 2.0;

@@ -2,13 +2,11 @@
 //! none.
 
 use clustering::RegionClusters;
+use eigensync::numbers::{four_digits, plain};
+use eigensync::{Agreement, End, Known, Predicted, Regions, Simulated};
 
 use super::{Judge, Number};
-use crate::agreement::{Agreement, Predicted, Regions};
-use crate::problem::plain;
-use crate::simulated::{End, Known, Simulated};
 use crate::spec::Quantity;
-use crate::table::four_digits;
 
 impl Judge<'_> {
     /// The numbers of the claim's quantity, one for each mode or ε.
@@ -31,8 +29,10 @@ impl Judge<'_> {
                 self.at_each_epsilon(|simulated, at| cluster_error(simulated, at, &clusters))
             }
             Quantity::Nodes => vec![Number::exactly(self.counted_nodes() as f64)],
-            Quantity::Links => vec![Number::exactly(self.plan.network.n_links() as f64)],
-            Quantity::Groups => vec![Number::exactly(self.plan.network.groups().len() as f64)],
+            Quantity::Links => vec![Number::exactly(self.plan.study.network.n_links() as f64)],
+            Quantity::Groups => {
+                vec![Number::exactly(self.plan.study.network.groups().len() as f64)]
+            }
             Quantity::Pearson => {
                 self.agreements(|a| known(a.correlation.map(|c| c.pearson), a.errors.pearson))
             }
@@ -65,16 +65,16 @@ impl Judge<'_> {
     }
 
     fn eigenvalues(&self) -> Vec<Number> {
-        let spectrum = &self.findings.spectrum;
-        let computed = spectrum.eigenvalues.len();
-        let number = |mode: usize| match spectrum.eigenvalues.get(mode - 1) {
+        let eigenvalues = self.findings.spectrum.real_eigenvalues();
+        let computed = eigenvalues.len();
+        let number = |mode: usize| match eigenvalues.get(mode - 1) {
             Some(&value) => Number::Known { value, error: self.eigenvalue_error(mode) },
             None => self.not_computed(mode),
         };
         match &self.spec.at.modes {
             Some(modes) => modes.iter().map(|&mode| number(mode)).collect(),
             // All, of which a part says nothing of the rest.
-            None if computed < self.plan.network.n_nodes() => {
+            None if computed < self.plan.study.network.n_nodes() => {
                 (1..=computed + 1).map(number).collect()
             }
             None => (1..=computed).map(number).collect(),
@@ -84,7 +84,7 @@ impl Judge<'_> {
     /// How far an eigenvalue is known. Those of one eigenspace are equal as far as anyone can tell, so
     /// that they are in no order.
     fn eigenvalue_error(&self, mode: usize) -> f64 {
-        let spectrum = &self.findings.spectrum;
+        let spectrum = self.findings.spectrum.real_modes();
         let error = spectrum.error(mode - 1);
         let is_multiple =
             |space: &std::ops::Range<usize>| space.len() > 1 && space.contains(&(mode - 1));
@@ -96,15 +96,16 @@ impl Judge<'_> {
     }
 
     pub(super) fn not_computed(&self, mode: usize) -> Number {
-        let (computed, all) =
-            (self.findings.spectrum.eigenvalues.len(), self.plan.network.n_nodes());
+        let all = self.plan.study.network.n_nodes();
+        let computed = self.findings.spectrum.n_modes();
         Number::Unknown(format!("{computed} of {all} modes were computed, and not mode {mode}"))
     }
 
     fn critical_couplings(&self) -> Vec<Number> {
         let findings = self.findings;
+        let eigenvalues = findings.spectrum.real_eigenvalues();
         let number = |&mode: &usize| {
-            if mode > findings.spectrum.eigenvalues.len() {
+            if mode > eigenvalues.len() {
                 return self.not_computed(mode);
             }
             let is_meant = |c: &&msf::CriticalCoupling| c.mode == mode && c.stable_above;
@@ -118,7 +119,7 @@ impl Judge<'_> {
                     Number::Known { value: c.epsilon, error: c.standard_error }
                 }
                 Some(_) => Number::None,
-                None => self.no_edge(-findings.spectrum.eigenvalues[mode - 1]),
+                None => self.no_edge(-eigenvalues[mode - 1]),
             }
         };
         self.spec.at.modes.iter().flatten().map(number).collect()
@@ -161,7 +162,7 @@ impl Judge<'_> {
 
     /// The nodes of the network, or of the groups that the claim is about.
     fn counted_nodes(&self) -> usize {
-        let network = &self.plan.network;
+        let network = &self.plan.study.network;
         let Some(prefix) = &self.spec.at.group_prefix else { return network.n_nodes() };
         let groups = network.groups().iter().filter(|group| group.name.starts_with(prefix));
         groups.map(|group| group.nodes.len()).sum()

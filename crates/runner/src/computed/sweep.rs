@@ -1,37 +1,26 @@
 //! The replicas of a sweep: those that the journal has are taken over, those of which it has a state go
 //! on from it, and every other begins at its initial state. Which of the three, no bit depends on.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use eigensync::{Probe, Simulated, StepEffect, Sweep};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use dynamics::{
-    DynamicsError, Next, Observer, Outcome, Progress, Replica, Run, Schedule, Simulation, Snapshot,
-    Start,
+    DynamicsError, Next, Observer, Outcome, Progress, Replica, Run, Schedule, Snapshot, Start,
 };
 
 use super::matrix;
 use crate::journal::{Journal, Key, Kind};
-use crate::plan::{Plan, Sweep};
-use crate::problem::{Problem, Result, plain};
+use crate::plan::Plan;
 use crate::signals;
-use crate::simulated::Simulated;
-use crate::step_effect::{Probe, StepEffect};
-use crate::warning::Warnings;
 
 /// How long a batch runs before it leaves its states, and between one time and the next: what a kill
 /// costs, and long against the time that writing takes.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
 
-/// Simulates the sweep of a plan.
-pub fn simulate(
-    plan: &Plan,
-    sweep: &Sweep,
-    journal: &Journal,
-    warnings: &mut Warnings,
-) -> Result<Simulated> {
-    let simulation = simulation(plan, sweep, sweep.schedule);
+/// All replicas of the sweep of a plan.
+pub fn runs(plan: &Plan, sweep: &Sweep, journal: &Journal) -> Result<Vec<Run>, DynamicsError> {
+    let simulation = plan.study.simulation(sweep, sweep.schedule);
     let replicas = sweep.replicas();
     let shared = (matrix(plan), &plan.node, sweep.method, sweep.schedule);
     let shared = Key::of(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
@@ -57,17 +46,14 @@ pub fn simulate(
             ran
         })
     });
-    let ran = ran.map_err(|error| not_simulated(plan, &error))?;
-    for (at, run) in left.into_iter().zip(ran) {
+    for (at, run) in left.into_iter().zip(ran?) {
         outcomes[at] = Some(run.outcome);
     }
     let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
         replica,
         outcome: outcome.expect("every replica was taken over or has run"),
     };
-    let runs: Vec<Run> = replicas.into_iter().zip(outcomes).map(run).collect();
-    warn_of_failures(&runs, warnings);
-    Ok(Simulated::new(sweep, plan.network.n_nodes(), runs))
+    Ok(replicas.into_iter().zip(outcomes).map(run).collect())
 }
 
 /// What the step of the integrator does at some couplings of a sweep, all of it one piece of work.
@@ -76,7 +62,7 @@ pub fn effects_of_step(
     sweep: &Sweep,
     simulated: &Simulated,
     journal: &Journal,
-) -> Result<Vec<StepEffect>> {
+) -> Result<Vec<StepEffect>, DynamicsError> {
     let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
     let bound = |replica: &Replica| {
         simulated.position(replica.epsilon).map_or(0.0, |position| simulated.bound(position))
@@ -85,34 +71,16 @@ pub fn effects_of_step(
         probe.replicas.iter().map(|run| (run.epsilon, run.seed, bound(run))).collect();
     let of = (matrix(plan), &plan.node, sweep.method, probe.schedules, replicas);
     let key = Key::of(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
-    let effects = journal.once((Kind::StepEffects, key), || {
+    journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {
             let steps = probe.replicas.len() as u64 * schedule.steps();
-            let simulation = simulation(plan, sweep, schedule);
+            let simulation = plan.study.simulation(sweep, schedule);
             let run = |progress: Progress<'_>| simulation.run(&probe.replicas, progress);
             plan.stages.measured("half step", steps, run)
         };
         let [at_step, at_half] = probe.schedules.map(at);
         Ok(probe.effects(simulated, [&at_step?, &at_half?]))
-    });
-    effects.map_err(|error| not_simulated(plan, &error))
-}
-
-fn simulation<'a>(plan: &'a Plan, sweep: &Sweep, schedule: Schedule) -> Simulation<'a> {
-    Simulation {
-        dynamics: Arc::new(plan.node.model),
-        coupling: plan.node.coupling.clone(),
-        matrix: plan.matrix.matrix(),
-        method: sweep.method,
-        schedule,
-        observables: sweep.observables.clone(),
-        kick: sweep.kick,
-        instruction_set: plan.msf.instruction_set,
-    }
-}
-
-fn not_simulated(plan: &Plan, error: &DynamicsError) -> Problem {
-    Problem::from_error("the sweep could not be simulated", error).in_file(&plan.file)
+    })
 }
 
 /// Steps of a sweep that an earlier run has done.
@@ -122,33 +90,6 @@ fn steps_done(sweep: &Sweep, starts: &[Start]) -> u64 {
     let to_do: u64 =
         starts.iter().map(|start| sweep.schedule.steps() - samples(start) * stride).sum();
     sweep.steps() - to_do
-}
-
-/// Couplings at which the integrator gave up, each with its seeds.
-fn warn_of_failures(runs: &[Run], warnings: &mut Warnings) {
-    let mut at: BTreeMap<u64, Vec<(&Run, f64, &str)>> = BTreeMap::new();
-    for run in runs {
-        if let Outcome::Failed { time, reason } = &run.outcome {
-            at.entry(run.replica.epsilon.to_bits()).or_default().push((run, *time, reason));
-        }
-    }
-    for failed in at.into_values() {
-        let (run, time, reason) = failed[0];
-        let seeds: Vec<String> =
-            failed.iter().map(|(run, ..)| run.replica.seed.to_string()).collect();
-        warnings.add(
-            "simulations",
-            format!(
-                "at epsilon = {} the integrator gave up with seed{} {}, first at time {}: {}; a \
-                 looser `sweep.tolerance` or weaker coupling is within its reach",
-                plain(run.replica.epsilon),
-                if seeds.len() == 1 { "" } else { "s" },
-                seeds.join(", "),
-                plain(time),
-                reason
-            ),
-        );
-    }
 }
 
 /// Keeps what replicas leave, when they end and on the way.
@@ -187,7 +128,7 @@ impl<'a> Following<'a> {
 
 impl Observer for Following<'_> {
     fn advanced(&self, replicas: &[usize], steps: u64) -> Next {
-        (self.progress)(steps);
+        let _ = (self.progress)(steps);
         let Batch { samples, looked } = &self.batches[replicas[0]];
         if signals::is_stopping() {
             // One that has just begun has nothing to leave.
@@ -228,7 +169,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let journal = Journal::open(folder.path(), "tiny", false).unwrap();
         let keys = (0..3).map(|k| Key::of(Kind::Replica, &k)).collect();
-        let mut following = Following::new(&journal, keys, &|_| ());
+        let mut following = Following::new(&journal, keys, dynamics::QUIET);
         let snapshots = |following: &Following<'_>, batch: &[usize]| {
             let samples = 0..10 * BETWEEN_LOOKS;
             samples.filter(|_| following.advanced(batch, 10) == Next::Snapshot).count()

@@ -1,9 +1,9 @@
 //! The predicted states as plain data for their figure: which cluster came from which.
 
 use clustering::Partition;
+use eigensync::Findings;
 
 use super::identity::{Identities, Identity};
-use crate::findings::Findings;
 use crate::plan::Plan;
 use figures::{CascadeCluster, CascadePanel, CascadeState};
 
@@ -17,7 +17,7 @@ pub fn panel(plan: &Plan, findings: &Findings, identities: &Identities) -> Casca
         clusters: clusters(&state.clusters, before, identities),
     };
     CascadePanel {
-        n_nodes: plan.network.n_nodes(),
+        n_nodes: plan.study.network.n_nodes(),
         states: states.map(state).collect(),
         shown: identities.shown,
     }

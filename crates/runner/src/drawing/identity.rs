@@ -11,10 +11,10 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 
 use clustering::State;
+use eigensync::Findings;
 use figures::Label;
 use graph::Network;
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 
 /// What a cluster looks like and is called.
@@ -47,7 +47,7 @@ impl Identities {
         let states = &findings.cascade;
         let clusters: Vec<Vec<Vec<usize>>> =
             states.iter().map(|state| state.clusters.nontrivial()).collect();
-        let (chains, n_chains) = chains(plan.network.n_nodes(), &clusters);
+        let (chains, n_chains) = chains(plan.study.network.n_nodes(), &clusters);
         let names = names(plan, findings, &clusters, &chains);
         let mut first: Vec<(usize, Chain)> = shown.map_or_else(Vec::new, |state| {
             names[state].iter().map(|(number, _)| *number).zip(chains[state].clone()).collect()
@@ -70,7 +70,7 @@ impl Identities {
     /// The colour of each node's cluster in the state to be shown.
     pub fn shown_colours(&self, findings: &Findings, n_nodes: usize) -> Vec<Option<usize>> {
         let mut colours = vec![None; n_nodes];
-        for state in self.shown {
+        if let Some(state) = self.shown {
             let clusters = findings.cascade[state].clusters.nontrivial();
             for (nodes, identity) in clusters.iter().zip(&self.of_state[state]) {
                 nodes.iter().for_each(|&node| colours[node] = Some(identity.colour));
@@ -183,7 +183,7 @@ fn names(
                     _ => numbers.get(&(state, nodes[0])).copied().unwrap_or(0),
                 };
                 last.insert(chain, (nodes, number));
-                (number, name_of(&plan.network, number, nodes))
+                (number, name_of(&plan.study.network, number, nodes))
             })
             .collect()
     });

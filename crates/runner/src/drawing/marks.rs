@@ -1,10 +1,10 @@
 //! Vertical lines on a sweep: where the predicted clusters change, and where the source saw that.
 
 use clustering::State;
+use eigensync::Findings;
 use figures::{Label, Marker, MarkerGroup, MarkerStyle};
 use msf::{CriticalCoupling, StableRegion};
 
-use crate::findings::Findings;
 use crate::plan::Plan;
 
 /// Critical couplings of one transition differ by rounding alone, relative to their size.
@@ -13,7 +13,8 @@ const SAME: f64 = 1e-9;
 /// The predicted critical couplings within the sweep at which clusters change or those of the modes
 /// that are asked for, one for each run of equal eigenvalues.
 pub fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
-    let leads = |mode: usize| findings.spectrum.eigenspaces.iter().any(|e| e.start + 1 == mode);
+    let eigenspaces = findings.spectrum.real_modes().eigenspaces;
+    let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
     let is_wanted = |critical: &CriticalCoupling| match &plan.figure().mark_modes {
         Some(modes) => modes.contains(&critical.mode),
         None => changes_clusters(critical.epsilon, &findings.cascade),

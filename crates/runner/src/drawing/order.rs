@@ -1,10 +1,10 @@
 //! The order of nodes along matrices and eigenvectors: by groups, else by predicted clusters.
 
 use clustering::Partition;
+use eigensync::Findings;
 use figures::{Group, Label};
 
 use super::identity::Identities;
-use crate::findings::Findings;
 use crate::plan::Plan;
 
 /// Which node stands at which place.
@@ -27,19 +27,19 @@ impl Order {
     /// The nodes of a group together, in the order of first nodes; without groups the nodes of the
     /// clusters of these states, the largest cluster first, those of the first state above all.
     pub fn of(plan: &Plan, findings: &Findings, states: &[Option<usize>]) -> Self {
-        let groups = plan.network.groups();
+        let groups = plan.study.network.groups();
         if !groups.is_empty() {
-            let mut first: Vec<usize> = (0..plan.network.n_nodes()).collect();
+            let mut first: Vec<usize> = (0..plan.study.network.n_nodes()).collect();
             for group in groups {
                 let least = group.nodes.iter().copied().min().unwrap_or(0);
                 group.nodes.iter().for_each(|&node| first[node] = least);
             }
-            return Self::by(plan.network.n_nodes(), &[first]);
+            return Self::by(plan.study.network.n_nodes(), &[first]);
         }
         let states = states.iter().flatten();
         let ranks: Vec<Vec<usize>> =
             states.map(|&state| ranks(&findings.cascade[state].clusters)).collect();
-        Self::by(plan.network.n_nodes(), &ranks)
+        Self::by(plan.study.network.n_nodes(), &ranks)
     }
 
     /// By the first key, those of the same by the next, and by their numbers in the end.
@@ -74,7 +74,7 @@ impl Order {
         identities: &Identities,
         state: Option<usize>,
     ) -> Vec<Group> {
-        let named = plan.network.groups();
+        let named = plan.study.network.groups();
         let mut groups: Vec<Group> = if named.is_empty() {
             let state = state.filter(|&state| is_parted(findings, state));
             let clusters = state.iter().flat_map(|&state| {

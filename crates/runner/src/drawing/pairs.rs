@@ -3,14 +3,12 @@
 //! the predicted clusters, so that what is together is seen together.
 
 use clustering::{Correlation, EigenvectorDistance};
+use eigensync::numbers::plain;
+use eigensync::{Agreement, Findings, Predicted, Simulated};
 
 use super::identity::Identities;
 use super::order::{self, Order};
-use crate::agreement::{Agreement, Predicted};
-use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::problem::plain;
-use crate::simulated::Simulated;
 use figures::{
     Comparison, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, components_panel,
 };
@@ -28,10 +26,11 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
     let order = Order::of(plan, findings, &states);
     let groups: Vec<Vec<Group>> =
         states.iter().map(|&state| order.groups(plan, findings, &identities, state)).collect();
+    let vectors = findings.spectrum.real_modes().eigenvectors;
     let modes: Vec<Mode> = shown_modes(plan, findings)
         .into_iter()
         .filter_map(|mode| {
-            let components = order.arranged(findings.spectrum.eigenvectors.get(mode - 1)?);
+            let components = order.arranged(vectors.get(mode - 1)?);
             Some(Mode { label: Label::math("v").subscript(&mode.to_string()), components })
         })
         .collect();
@@ -62,7 +61,7 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
 
 /// The network coloured by its groups, which keep their names, else by predicted clusters.
 fn network(plan: &Plan, findings: &Findings, identities: &Identities) -> NetworkPanel {
-    let groups = plan.network.groups();
+    let groups = plan.study.network.groups();
     if groups.is_empty() {
         return super::predicted_network(plan, findings, identities);
     }
@@ -78,7 +77,7 @@ pub fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
 
 /// The modes asked for, else those of [`DEFAULT_MODES`] that were computed, or the only one.
 fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
-    let computed = findings.spectrum.eigenvectors.len();
+    let computed = findings.spectrum.n_modes();
     plan.figure().eigenvectors.clone().unwrap_or_else(|| {
         let modes: Vec<usize> = DEFAULT_MODES.filter(|&mode| mode <= computed).collect();
         if modes.is_empty() { vec![1] } else { modes }
@@ -92,7 +91,7 @@ fn predicted(
     simulated: &Simulated,
     position: usize,
 ) -> HeatMapPanel {
-    let n_nodes = plan.network.n_nodes();
+    let n_nodes = plan.study.network.n_nodes();
     let uniform = |value: f64| vec![value; n_nodes * n_nodes];
     let of = findings.agreement.get(position).map_or(&Predicted::NotReached, |a| &a.predicted);
     let (values, word) = match of {
@@ -131,7 +130,7 @@ fn errors(
     let correlation = agreement.and_then(|agreement| agreement.correlation);
     HeatMapPanel {
         title: error_title(simulated, correlation, position),
-        n_nodes: plan.network.n_nodes(),
+        n_nodes: plan.study.network.n_nodes(),
         values: error_matrix(plan, simulated, position),
         range: None,
         bar_label: Label::math("δx").subscript("ij"),
@@ -156,7 +155,7 @@ fn error_title(simulated: &Simulated, correlation: Option<Correlation>, position
 
 /// δx_ij row by row; NaN where every run escaped.
 pub fn error_matrix(plan: &Plan, simulated: &Simulated, position: usize) -> Vec<f64> {
-    let n_nodes = plan.network.n_nodes();
+    let n_nodes = plan.study.network.n_nodes();
     let pairs = simulated.mean_pairs(position);
     let error = |i, j| pairs.as_ref().map_or(f64::NAN, |pairs| pairs.of(i, j));
     (0..n_nodes).flat_map(|i| (0..n_nodes).map(move |j| (i, j))).map(|(i, j)| error(i, j)).collect()

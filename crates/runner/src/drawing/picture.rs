@@ -1,10 +1,10 @@
 //! The files of a figure, made so that nothing in them can cost results: what cannot be drawn is a
 //! warning, and so is a fault of ours.
 
+use eigensync::Findings;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{DOTS_PER_INCH, figure, foreseen};
-use crate::findings::Findings;
 use crate::plan::Plan;
 use crate::spec::FigureKind;
 use figures::{Drawn, Figure, FigureError, pdf, png};

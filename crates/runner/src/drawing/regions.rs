@@ -4,12 +4,11 @@
 
 use std::cmp::Reverse;
 
+use eigensync::{Agreement, Findings, Predicted, Regions, Simulated};
+
 use super::identity::followed;
 use super::pairs::{epsilon, shown};
-use crate::agreement::{Agreement, Predicted, Regions};
-use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::simulated::Simulated;
 use figures::{Content, Figure, Label, PositionsPanel, pairs_figure};
 
 /// A mark for each node: its cluster, or its colour.
@@ -17,7 +16,7 @@ type Marks = Vec<Option<usize>>;
 
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
 pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
-    let positions = plan.network.positions().unwrap_or_default();
+    let positions = plan.study.network.positions().unwrap_or_default();
     let mut colours = Colours::new(positions.len());
     let columns = shown(simulated).map(|position| {
         let of_side = |side: &str, (clusters, grey): (Marks, &str)| {

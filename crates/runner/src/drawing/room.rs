@@ -1,9 +1,10 @@
 //! What a figure has room for, known before anything is computed: `check` foresees it, and the figure
 //! is drawn so. Numbers are never left out with it: the tables have them all.
 
-use crate::plan::{ALL_PAIRS, Plan, Sweep};
-use crate::problem::plain;
+use crate::plan::{ALL_PAIRS, Plan};
 use crate::spec::FigureKind;
+use eigensync::Sweep;
+use eigensync::numbers::plain;
 
 /// Curves that a reader can tell apart; the others are thin and grey.
 const TOLD_APART: usize = 16;
@@ -57,11 +58,11 @@ pub fn columns(n_epsilon: usize) -> Vec<usize> {
 
 /// What of a plan its figure will not show as asked, in words.
 pub fn foreseen(plan: &Plan) -> Vec<String> {
-    let Some(sweep) = &plan.sweep else { return Vec::new() };
+    let Some(sweep) = &plan.study.sweep else { return Vec::new() };
     let asked_for = plan.figure().kind;
     let room = match plan.figure_kind() {
         FigureKind::None => None,
-        FigureKind::Sweep => of_curves(sweep, plan.network.n_nodes()),
+        FigureKind::Sweep => of_curves(sweep, plan.study.network.n_nodes()),
         FigureKind::Matrices | FigureKind::Regions => of_columns(&sweep.epsilon),
     };
     let instead = (asked_for != plan.figure_kind()).then(|| {

@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 use super::Kind;
 
 /// Raised when the payload of a kind changes its form while the program keeps its version.
-const FORM: u32 = 1;
+const FORM: u32 = 2;
 
 /// The key of one piece of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,14 +1,14 @@
 //! What `exact` means in a prediction, how far the clusters that are not exact are from it, which exact
 //! ones they hold, and what is there by chance.
 
+use eigensync::numbers::{four_digits, two_digits};
+use eigensync::{EQUITABLE, Findings};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
 use super::{SHOWN, grouped};
-use crate::findings::{EQUITABLE, Findings};
 use crate::plan::Plan;
-use crate::table::{four_digits, two_digits};
 
 /// Nodes shown of one cluster.
 const NODES: usize = 8;
@@ -36,7 +36,7 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
             ),
         );
     }
-    if let ClusterRule::Threshold(threshold) = plan.rule {
+    if let ClusterRule::Threshold(threshold) = plan.study.rule {
         text.push_str(&beyond(threshold, labels()));
     }
     text.push_str(&parts(plan, findings));
@@ -123,7 +123,7 @@ fn below(state: &State) -> String {
 }
 
 fn named(plan: &Plan, nodes: &[usize]) -> String {
-    let shown = nodes.iter().take(NODES).map(|&node| &plan.network.labels()[node][..]);
+    let shown = nodes.iter().take(NODES).map(|&node| &plan.study.network.labels()[node][..]);
     let more = if nodes.len() > NODES { ", …" } else { "" };
     format!("{{{}{more}}}", shown.collect::<Vec<_>>().join(", "))
 }

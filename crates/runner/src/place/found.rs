@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::leftovers::holds_work;
+use super::lock::holds_work;
 use super::lock::is_held;
 use super::standing::Head;
 use super::{REPLACED, WHOLE, name};

@@ -4,10 +4,10 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::lock::{LOCK, Lock};
+use super::lock::{Lock, holds_work};
 use super::manifest::{Manifest, Owner};
 use super::standing::Head;
-use super::{FILES, carry, exchange, name};
+use super::{carry, exchange, name};
 use crate::output::{shown, tell};
 use crate::problem::{Problem, Result};
 
@@ -15,13 +15,6 @@ use crate::problem::{Problem, Result};
 const LETTERS_OF_0_1_0: usize = 6;
 /// What it called the older results between two renames.
 const REPLACED_OF_0_1_0: &str = "-replaced";
-
-/// Whether there is anything in a hidden folder that a later run could go on from.
-pub fn holds_work(hidden: &Path) -> bool {
-    let entries = fs::read_dir(hidden).into_iter().flatten().flatten();
-    let worthless = ["trial", LOCK, FILES];
-    entries.into_iter().any(|entry| !worthless.iter().any(|name| entry.file_name() == *name))
-}
 
 /// Clears away the hidden folders that dead runs of any experiment have left without work in them.
 pub fn of_dead_runs(results: &Path) {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::leftovers::holds_work;
+use super::FILES;
 use super::standing::{Identity, Origin};
 use crate::output::{shown, tell};
 use crate::problem::Problem;
@@ -237,4 +237,11 @@ fn held(folder: &Path) -> Problem {
     let message = format!("another run of the same experiment works here{who}");
     let hint = "wait for it, or write elsewhere: `--results FOLDER`";
     Problem::new(message).in_file(folder).hint(hint)
+}
+
+/// Whether there is anything in a hidden folder that a later run could go on from.
+pub fn holds_work(hidden: &Path) -> bool {
+    let entries = fs::read_dir(hidden).into_iter().flatten().flatten();
+    let worthless = ["trial", LOCK, FILES];
+    entries.into_iter().any(|entry| !worthless.iter().any(|name| entry.file_name() == *name))
 }

@@ -1,10 +1,11 @@
 //! Claims before anything is computed: each names an instance of its quantity that will exist, and
 //! states a value of the shape that the quantity has.
 
+use eigensync::numbers::plain;
 use serde::de::DeserializeOwned;
 
 use super::{ALL_PAIRS, Checker, Plan};
-use crate::problem::{Result, plain};
+use crate::problem::Result;
 use crate::spec::{ClaimSpec, Name, OneOrMany, Quantity};
 
 /// Whether a quantity is singled out by a key of `where`.
@@ -94,7 +95,7 @@ impl Claim<'_> {
         if self.is_of_regions() && self.checker.experiment.regions.is_none() {
             return self.refuse("", "is about regions, but there is no [regions]");
         }
-        match &self.plan.sweep {
+        match &self.plan.study.sweep {
             None if self.is_simulated() => {
                 self.refuse("", "is about simulations, but there is no [sweep]")
             }
@@ -112,7 +113,7 @@ impl Claim<'_> {
     /// A prefix that begins the name of no group would count no nodes.
     fn group_prefix(&self) -> Result<()> {
         let Some(prefix) = &self.spec.at.group_prefix else { return Ok(()) };
-        let groups = self.plan.network.groups();
+        let groups = self.plan.study.network.groups();
         if groups.iter().any(|group| group.name.starts_with(prefix.as_str())) {
             return Ok(());
         }
@@ -171,7 +172,7 @@ impl Claim<'_> {
 
     fn one_epsilon(&self, epsilon: f64) -> Result<()> {
         self.checker.positive(&self.key(".where.epsilon"), epsilon)?;
-        let Some(sweep) = self.plan.sweep.as_ref().filter(|_| self.is_simulated()) else {
+        let Some(sweep) = self.plan.study.sweep.as_ref().filter(|_| self.is_simulated()) else {
             return Ok(());
         };
         if sweep.epsilon.contains(&epsilon) {
@@ -189,7 +190,7 @@ impl Claim<'_> {
 
     fn modes(&self) -> Result<()> {
         let Some(modes) = &self.spec.at.modes else { return Ok(()) };
-        let computed = self.plan.spectrum.most_modes(self.plan.network.n_nodes());
+        let computed = self.plan.study.modes.most_modes(self.plan.study.network.n_nodes());
         if modes.is_empty() {
             return self.refuse(".where.modes", "is empty");
         }
@@ -202,7 +203,7 @@ impl Claim<'_> {
             return self.refuse(".where.clusters", "is empty");
         }
         let key = self.key(".where.clusters");
-        self.checker.clusters(&key, clusters, &self.plan.network).map(|_| ())
+        self.checker.clusters(&key, clusters, &self.plan.study.network).map(|_| ())
     }
 
     fn shape(&self) -> Shape {
@@ -235,7 +236,7 @@ impl Claim<'_> {
         }
         if spec.trend.is_some() {
             // How many eigenvalues there are beforehand is known only of all of them together.
-            let one = self.plan.network.n_nodes() < 2;
+            let one = self.plan.study.network.n_nodes() < 2;
             return match self.shape() {
                 Shape::Numbers(None) if !one => Ok(()),
                 Shape::Numbers(Some(2..)) => Ok(()),
@@ -256,7 +257,7 @@ impl Claim<'_> {
                 let clusters: Vec<Vec<Name>> =
                     self.equals("a list of clusters, such as [[1, 2], [3, 4]]")?;
                 let key = self.key(".equals");
-                self.checker.clusters(&key, &clusters, &self.plan.network).map(|_| ())
+                self.checker.clusters(&key, &clusters, &self.plan.study.network).map(|_| ())
             }
             Shape::Order => self.order(),
         }
@@ -286,7 +287,7 @@ impl Claim<'_> {
     fn vectors(&self) -> Result<()> {
         let vectors: Vec<Vec<f64>> = self.equals("a list of vectors")?;
         let modes = self.spec.at.modes.as_ref().map_or(0, Vec::len);
-        let n_nodes = self.plan.network.n_nodes();
+        let n_nodes = self.plan.study.network.n_nodes();
         if vectors.len() != modes || vectors.iter().any(|vector| vector.len() != n_nodes) {
             let message = format!("must be {modes} vectors of {n_nodes} components each");
             return self.refuse(".equals", message);

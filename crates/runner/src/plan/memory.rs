@@ -3,11 +3,12 @@
 //! The numbers of bytes are rounded up from runs of 10³ to 10⁶ nodes; they are there to tell a
 //! gigabyte from a hundred, not to be exact.
 
+use eigensync::Sweep;
 use std::path::Path;
 
 use dynamics::Observables;
 
-use super::{Checker, Plan, Sweep};
+use super::{Checker, Plan};
 use crate::machine::available_memory;
 use crate::problem::{Problem, Result};
 use crate::spec::{FigureKind, NetworkSpec};
@@ -56,15 +57,15 @@ struct Part {
 impl Memory {
     /// Of all that a plan does.
     pub fn of(plan: &Plan) -> Self {
-        let (n, links) = (plan.network.n_nodes() as f64, plan.network.n_links() as f64);
+        let (n, links) = (plan.study.network.n_nodes() as f64, plan.study.network.n_links() as f64);
         let mut parts = vec![Part {
             name: "network",
             key: "network",
             bytes: n * NODE + links * LINK,
             hint: "take a smaller network, or a part of it by `prepare`",
         }];
-        let modes = plan.spectrum.most_modes(plan.network.n_nodes()) as f64;
-        let is_dense = plan.spectrum.is_dense(plan.network.n_nodes());
+        let modes = plan.study.modes.most_modes(plan.study.network.n_nodes()) as f64;
+        let is_dense = plan.study.modes.is_dense(plan.study.network.n_nodes());
         let dense = DENSE_MATRICES * n * n;
         let leading = (VECTORS_A_MODE * n * modes).min(dense);
         parts.push(Part {
@@ -73,9 +74,11 @@ impl Memory {
             bytes: NUMBER * if is_dense { dense } else { leading },
             hint: "set `spectrum.modes` to the number of leading modes you need",
         });
-        parts.extend(plan.sweep.iter().map(|sweep| of_sweep(sweep, n)));
+        parts.extend(plan.study.sweep.iter().map(|sweep| of_sweep(sweep, n)));
         let figure = plan.figure_kind();
-        if plan.sweep.is_some() && matches!(figure, FigureKind::Matrices | FigureKind::Regions) {
+        if plan.study.sweep.is_some()
+            && matches!(figure, FigureKind::Matrices | FigureKind::Regions)
+        {
             parts.push(Part {
                 name: "figure",
                 key: "figure.kind",

@@ -5,7 +5,9 @@ use std::collections::{HashMap, HashSet};
 use graph::Network;
 use graph::prepare::Report;
 
-use super::{ALL_PAIRS, Checker, SpectrumPlan};
+use eigensync::WantedModes;
+
+use super::{ALL_PAIRS, Checker};
 use crate::problem::{Problem, Result};
 use crate::spec::{FigureKind, Layout, Name};
 
@@ -134,7 +136,7 @@ impl Checker<'_> {
     }
 
     /// What the figure is told of nodes, modes and couplings must exist.
-    pub(super) fn figure(&self, network: &Network, spectrum: &SpectrumPlan) -> Result<()> {
+    pub(super) fn figure(&self, network: &Network, spectrum: &WantedModes) -> Result<()> {
         let (figure, n_nodes) = (&self.experiment.figure, network.n_nodes());
         self.figure_kind(network)?;
         if let Layout::At(positions) = &figure.layout {

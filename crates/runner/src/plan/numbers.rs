@@ -1,10 +1,12 @@
 //! Numbers of an experiment: finite, of the right sign, and of a size that can be computed at all.
 
 use dynamics::{BLOCKS, Schedule};
+use eigensync::Bound;
+use eigensync::numbers::plain;
 
 use super::{ALL_PAIRS, Checker};
-use crate::problem::{Result, plain};
-use crate::spec::{Bound, EvenGrid, Grid};
+use crate::problem::Result;
+use crate::spec::{EvenGrid, Grid};
 
 /// The most points of a grid, and the most runs of a sweep.
 const MOST_POINTS: f64 = 1e6;

@@ -1,8 +1,10 @@
 //! The range in which each number of an experiment makes sense, and why it ends where it does.
 
 use super::Checker;
-use crate::problem::{Result, plain};
-use crate::spec::{Bound, RegionsSpec, SweepSpec};
+use crate::problem::Result;
+use crate::spec::{RegionsSpec, SweepSpec};
+use eigensync::Bound;
+use eigensync::numbers::plain;
 
 /// A range of sensible values, both ends among them, and the reason for it.
 #[derive(Clone, Copy)]

@@ -2,11 +2,11 @@
 //! σ of the last point of the curve, and for a sweep its largest ε times |λ_N|.
 
 use dynamics::{LinearSteps, Method, StepVerdict};
+use eigensync::numbers::{four_digits, plain, two_digits};
+use eigensync::{Sweep, Warning};
 
-use super::{Checker, Node, Plan, Sweep};
-use crate::problem::{Result, plain};
-use crate::table::{four_digits, two_digits};
-use crate::warning::Warning;
+use super::{Checker, Node, Plan};
+use crate::problem::Result;
 
 /// Where a step is taken, and what would help beside a shorter one.
 struct Step<'a> {
@@ -25,19 +25,19 @@ impl Checker<'_> {
     /// that of a sweep at its largest ε for the fastest mode of the network. Returns doubts.
     pub(super) fn steps(&self, plan: &Plan) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
-        let step = plan.msf.times.step;
+        let step = plan.study.msf.times.step;
         if let Some(steps) = self.linear_steps(&plan.node, step) {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
                 step,
-                sigma: plan.msf.sigma[plan.msf.sigma.len() - 1],
+                sigma: plan.study.msf.sigma[plan.study.msf.sigma.len() - 1],
                 reached_by: "the end of `msf.sigma`",
                 instead: "or end the grid earlier",
             };
             doubts.extend(self.judge(&steps, &of_msf)?);
         }
-        match &plan.sweep {
+        match &plan.study.sweep {
             Some(sweep) if sweep.method == Method::Rk4 => {
                 doubts.extend(self.sweep_step(plan, sweep)?);
             }
@@ -50,13 +50,13 @@ impl Checker<'_> {
         let step = sweep.schedule.step;
         let Some(steps) = self.linear_steps(&plan.node, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
-        let diagonal = plan.matrix.symmetric().diag_iter().flatten();
+        let diagonal = plan.study.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
         // By Gershgorin |λ_N| is no more, and need not be known where the step is sound even so.
         if steps.judge(epsilon * bound, step) == StepVerdict::Sound {
             return Ok(None);
         }
-        let fastest = spectra::smallest_eigenvalue(&plan.matrix).map_or(bound, f64::abs);
+        let fastest = spectra::smallest_eigenvalue(&plan.study.matrix).map_or(bound, f64::abs);
         let reached_by =
             format!("epsilon = {} times |λ_N| = {}", plain(epsilon), four_digits(fastest));
         let of_sweep = Step {

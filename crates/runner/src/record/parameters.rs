@@ -16,13 +16,13 @@ pub fn of(plan: &Plan) -> Value {
             table[key] = value;
         }
     };
-    set("/spectrum/modes", json!(plan.spectrum.wanted()));
-    set("/spectrum/tolerance", json!(plan.spectrum.tolerance()));
-    set("/msf/transient", json!(plan.msf.times.transient));
-    set("/msf/average", json!(plan.msf.times.average));
-    set("/msf/relative_error", json!(plan.msf.refinement.relative_error));
-    set("/msf/refinement_rounds", json!(plan.msf.refinement.max_rounds));
-    if let Some(sweep) = &plan.sweep {
+    set("/spectrum/modes", json!(plan.study.modes.wanted()));
+    set("/spectrum/tolerance", json!(plan.study.modes.tolerance()));
+    set("/msf/transient", json!(plan.study.msf.times.transient));
+    set("/msf/average", json!(plan.study.msf.times.average));
+    set("/msf/relative_error", json!(plan.study.msf.refinement.relative_error));
+    set("/msf/refinement_rounds", json!(plan.study.msf.refinement.max_rounds));
+    if let Some(sweep) = &plan.study.sweep {
         set("/sweep/transient", json!(sweep.schedule.transient));
         set("/sweep/average", json!(sweep.schedule.average));
         set("/sweep/component", json!(plan.node.model.components()[sweep.observables.component]));

@@ -1,12 +1,11 @@
 //! The predicted states in a summary: their ranges of ε, their clusters, and which of these are exact.
 
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, Coincidences, State, StateLabels};
+use eigensync::{End, Findings, Seen};
 use serde::Serialize;
 
 use super::named;
-use crate::findings::Findings;
 use crate::plan::Plan;
-use crate::simulated::{End, Seen};
 
 /// Up to this many nodes a summary names the nodes of every cluster.
 const LISTED_NODES: usize = 5000;
@@ -92,11 +91,11 @@ fn record(
     (at, state): (usize, &State),
     labels: &StateLabels,
 ) -> StateRecord {
-    let is_listed = plan.network.n_nodes() <= LISTED_NODES;
+    let is_listed = plan.study.network.n_nodes() <= LISTED_NODES;
     let clusters = is_listed.then(|| state.clusters.nontrivial());
     let n_alone = labels.count(ClusterKind::Single);
     let n_clusters = labels.labels.len() - n_alone;
-    let has_pairs = plan.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+    let has_pairs = plan.study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
     let seen = clusters.as_ref().filter(|_| n_clusters > 0 && has_pairs);
     let seen = seen.and_then(|clusters| findings.state_seen(at, clusters));
     let (simulated_onset, simulated_end) = seen.map(|Seen { onset, end }| (onset, end)).unzip();
@@ -105,7 +104,8 @@ fn record(
         kind: label.kind.name(),
         spread: label.spread,
         deviation: label.deviation,
-        exceeds_threshold: (plan.rule != ClusterRule::Exact).then_some(label.exceeds_threshold),
+        exceeds_threshold: (plan.study.rule != ClusterRule::Exact)
+            .then_some(label.exceeds_threshold),
         holds_exact: named(&state.exact_parts(nodes), plan),
     };
     let coincidences = state.coincidences.map(|Coincidences { n_clusters, found, expected }| {

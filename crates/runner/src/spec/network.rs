@@ -1,12 +1,13 @@
 //! `[network.…]`, `prepare`, `[groups.…]` and `[regions]`: where the network comes from, what is made
 //! of it before it is used, and how its nodes belong together.
 
+use eigensync::{Bound, RegionBounds};
 use std::path::PathBuf;
 
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Bound, Name};
+use super::Name;
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -172,4 +173,12 @@ pub struct RegionsSpec {
     /// The same for δx in the simulation, in the units of the component.
     pub error_within: Bound,
     pub error_between: Bound,
+}
+
+impl RegionsSpec {
+    /// The same as the library knows it.
+    pub fn bounds(&self) -> RegionBounds {
+        let Self { distance_within, distance_between, error_within, error_between } = *self;
+        RegionBounds { distance_within, distance_between, error_within, error_between }
+    }
 }

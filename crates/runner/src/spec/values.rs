@@ -34,33 +34,6 @@ pub enum Grid {
     List(Vec<f64>),
 }
 
-/// A distance or an error below which nodes count as together.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Bound {
-    /// `{ of_largest = … }`: a fraction of the largest over all pairs at the same ε.
-    OfLargest(f64),
-    /// A number, in the units of what it bounds.
-    #[serde(untagged)]
-    Fixed(f64),
-}
-
-impl Bound {
-    /// The bound as a number, given the largest over all pairs.
-    pub fn value(self, largest: impl FnOnce() -> f64) -> f64 {
-        match self {
-            Self::Fixed(value) => value,
-            Self::OfLargest(fraction) => fraction * largest(),
-        }
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct OfLargest {
-    of_largest: f64,
-}
-
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvenGrid {
@@ -85,27 +58,6 @@ impl Grid {
             }
         }
     }
-}
-
-/// `"auto"`, `"all"`, a number of leading modes, or `{ unstable_at = … }`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ModesSpec {
-    /// All N where the stable set has an upper end, leading ones where it has none.
-    Auto,
-    /// All N.
-    All,
-    /// All that are unstable at this ε, or above.
-    UnstableAt(f64),
-    /// So many of the largest eigenvalues.
-    #[serde(untagged)]
-    Leading(u64),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UnstableAt {
-    unstable_at: f64,
 }
 
 /// `"exact"` or a number.
@@ -136,67 +88,6 @@ impl<'de> Deserialize<'de> for Name {
             }
         }
         deserializer.deserialize_any(Label)
-    }
-}
-
-impl fmt::Display for Bound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Fixed(value) => write!(f, "{value}"),
-            Self::OfLargest(fraction) => write!(f, "{fraction} of the largest"),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Bound {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NumberOrFraction;
-        impl<'de> Visitor<'de> for NumberOrFraction {
-            type Value = Bound;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or { of_largest = … }")
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Bound, E> {
-                Ok(Bound::Fixed(value as f64))
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Bound, E> {
-                Ok(Bound::Fixed(value))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Bound, A::Error> {
-                OfLargest::deserialize(MapAccessDeserializer::new(map))
-                    .map(|OfLargest { of_largest }| Bound::OfLargest(of_largest))
-            }
-        }
-        deserializer.deserialize_any(NumberOrFraction)
-    }
-}
-
-impl<'de> Deserialize<'de> for ModesSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Which;
-        impl<'de> Visitor<'de> for Which {
-            type Value = ModesSpec;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"auto\", \"all\", a whole number or { unstable_at = … }")
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<ModesSpec, E> {
-                match word {
-                    "auto" => Ok(ModesSpec::Auto),
-                    "all" => Ok(ModesSpec::All),
-                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
-                }
-            }
-            fn visit_i64<E: Error>(self, modes: i64) -> Result<ModesSpec, E> {
-                u64::try_from(modes)
-                    .map(ModesSpec::Leading)
-                    .map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(modes), &self))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ModesSpec, A::Error> {
-                UnstableAt::deserialize(MapAccessDeserializer::new(map))
-                    .map(|UnstableAt { unstable_at }| ModesSpec::UnstableAt(unstable_at))
-            }
-        }
-        deserializer.deserialize_any(Which)
     }
 }
 

@@ -7,7 +7,7 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-use super::GraphMlError;
+use super::error::GraphMlError;
 use crate::formats::text::quoted;
 
 /// Longest tag or run of text that is read, in bytes.

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::io::Read;
 
-use super::GraphMlError;
 use super::document::{Document, Element, Place};
+use super::error::GraphMlError;
 use super::keys::{Keys, Wanted, WantedKeys};
 use crate::formats::text::quoted;
 use crate::{Group, RawNetwork};

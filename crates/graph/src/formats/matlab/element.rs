@@ -6,7 +6,7 @@
 
 use std::io::{self, Read};
 
-use super::MatlabError;
+use super::error::MatlabError;
 use crate::formats::binary::{ByteOrder, Interrupted, Number, fill, read_numbers};
 use crate::formats::text::quoted;
 use crate::formats::{MAX_ENTRIES, MatrixError};

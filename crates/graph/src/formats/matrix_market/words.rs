@@ -2,8 +2,17 @@
 
 use std::str::FromStr;
 
-use super::{Field, MatrixMarketError, as_index};
+use super::error::MatrixMarketError;
+use crate::formats::matrix::as_index;
 use crate::formats::text::quoted;
+
+/// What the entries of a matrix are.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Field {
+    Real,
+    Integer,
+    Pattern,
+}
 
 /// A value of a line.
 #[derive(Clone, Copy, Default)]

@@ -9,7 +9,7 @@
 
 use std::io::Read;
 
-use super::NumpyError;
+use super::error::NumpyError;
 use crate::formats::binary::{ByteOrder, Number, fill};
 use crate::formats::text::quoted;
 

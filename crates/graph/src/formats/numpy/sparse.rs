@@ -5,10 +5,12 @@
 
 use std::io::{Read, Seek};
 
-use super::{Array, Arrays, Element, Header, NumpyError};
+use super::arrays::{Array, Arrays};
+use super::error::NumpyError;
+use super::header::{Element, Header};
 use crate::RawNetwork;
 use crate::formats::binary::fill;
-use crate::formats::matrix::MatrixBuilder;
+use crate::formats::matrix::{MatrixBuilder, as_index};
 use crate::formats::text::quoted;
 use crate::formats::{Layout, MatrixError};
 
@@ -34,7 +36,7 @@ pub(super) fn read<R: Read + Seek>(
     let mut builder = MatrixBuilder::new(rows, columns, layout)?;
     let data = vector(arrays, "data")?;
     let mut add = |row: u64, column: u64, value: f64| -> Result<(), MatrixError> {
-        builder.add(super::as_index(row), super::as_index(column), value)
+        builder.add(as_index(row), as_index(column), value)
     };
     match format.as_str() {
         "csr" => compressed(arrays, &data, rows, columns, add)?,
@@ -54,7 +56,7 @@ fn format_name(source: &mut dyn Read) -> Result<String, NumpyError> {
     if !header.shape.is_empty() {
         return Err(NumpyError::WrongDimensions { expected: 0, shape: header.shape });
     }
-    let mut text = vec![0; super::as_index(length)];
+    let mut text = vec![0; as_index(length)];
     let found = fill(source, &mut text)?;
     if found < text.len() {
         return Err(NumpyError::Truncated { expected: u128::from(length), found: found as u64 });
@@ -77,11 +79,11 @@ fn compressed<R: Read + Seek>(
     let n_entries = data.len() as u64;
     let mut start = whole_number("indptr", 0, pointers[0], 0, 0)?;
     for (outer, &pointer) in (0..n_outer).zip(&pointers[1..]) {
-        let position = super::as_index(outer) + 1;
+        let position = as_index(outer) + 1;
         // The last pointer must reach the end, or entries would be left out.
         let least = if outer + 1 == n_outer { n_entries } else { start };
         let end = whole_number("indptr", position, pointer, least, n_entries)?;
-        for k in super::as_index(start)..super::as_index(end) {
+        for k in as_index(start)..as_index(end) {
             let inner = index("indices", k, indices[k], n_inner)?;
             add(outer, inner, data[k])?;
         }

@@ -1,0 +1,122 @@
+//! A simulation run: replicas in batches of lanes, or one by one by an adaptive method.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::batches::{self, Batch, Numbered};
+use crate::integrators::{Method, adaptive};
+use crate::links::Links;
+use crate::observer::Counting;
+use crate::{
+    DynamicsError, Observer, Outcome, Progress, Replica, Run, Simulation, Snapshot, Start,
+};
+
+impl Simulation<'_> {
+    /// Runs all replicas on the current rayon pool; results come in the order of `replicas`.
+    ///
+    /// # Errors
+    /// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`] and [`DynamicsError::TooFewSamples`] for
+    /// a schedule that makes no sense. An orbit that escapes, or cannot be integrated, is an
+    /// [`Outcome`], not an error.
+    pub fn run(
+        &self,
+        replicas: &[Replica],
+        progress: Progress<'_>,
+    ) -> Result<Vec<Run>, DynamicsError> {
+        let starts = replicas.iter().map(|&replica| Start::from(replica)).collect();
+        self.run_observed(starts, &Counting(progress))
+    }
+
+    /// The same from initial states or from snapshots, with an observer that is told of every replica
+    /// as it ends and may stop the run. The outcomes do not depend on where replicas start.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`], and [`DynamicsError::Cancelled`] when the observer wanted to stop: then
+    /// only the outcomes that it was told of are there.
+    ///
+    /// # Panics
+    /// When a snapshot is of another simulation: see [`Self::can_start_from`].
+    pub fn run_observed(
+        &self,
+        starts: Vec<Start>,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Run>, DynamicsError> {
+        self.schedule.check()?;
+        for snapshot in starts.iter().filter_map(|start| start.from.as_ref()) {
+            assert!(self.can_start_from(snapshot), "a snapshot is of another simulation");
+        }
+        let replicas: Vec<Replica> = starts.iter().map(|start| start.replica).collect();
+        let starts: Vec<Numbered> = starts.into_iter().enumerate().collect();
+        let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
+        let told = match self.method {
+            Method::Rk4 => self.run_in_lanes(starts, observer),
+            Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
+                Some((number, adaptive::run(self, method, (number, start), observer)?))
+            }),
+        };
+        for (number, outcome) in told.ok_or(DynamicsError::Cancelled)? {
+            outcomes[number] = Some(outcome);
+        }
+        let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
+            replica,
+            outcome: outcome.expect("every replica is in one batch"),
+        };
+        Ok(replicas.into_iter().zip(outcomes).map(run).collect())
+    }
+
+    /// Whether a snapshot has the shape of those of this simulation. Whether it is of the same
+    /// equations, matrix, ε and seed, only its keeper can know.
+    pub fn can_start_from(&self, snapshot: &Snapshot) -> bool {
+        let n_nodes = self.matrix.rows();
+        let transient = self.schedule.transient_samples();
+        let n_sums = if snapshot.sample > transient { self.observables.n_sums(n_nodes) } else { 0 };
+        (1..transient + self.schedule.samples()).contains(&snapshot.sample)
+            && snapshot.state.len() == self.dynamics.start().len() * n_nodes
+            && snapshot.sums.len() == n_sums
+    }
+
+    /// Batches of lanes, as many as keep all threads busy; none when the observer wanted to stop.
+    fn run_in_lanes(
+        &self,
+        starts: Vec<Numbered>,
+        observer: &dyn Observer,
+    ) -> Option<Vec<(usize, Outcome)>> {
+        let links = Links::new(self.matrix);
+        macro_rules! run {
+            ($starts:ident in $lanes:literal lanes, $rows:literal rows) => {
+                self.instruction_set.run(Batch::<$lanes, $rows> {
+                    simulation: self,
+                    links: &links,
+                    starts: $starts,
+                    observer,
+                })
+            };
+        }
+        // Rows side by side: enough sums to hide how long one addition takes.
+        let run = |starts: Vec<Numbered>| match starts.len() {
+            1 => run!(starts in 1 lanes, 8 rows),
+            2 => run!(starts in 2 lanes, 4 rows),
+            3..=4 => run!(starts in 4 lanes, 4 rows),
+            5..=8 => run!(starts in 8 lanes, 2 rows),
+            _ => run!(starts in 16 lanes, 1 rows),
+        };
+        let batches = batches::of(starts, rayon::current_num_threads());
+        Some(run_unless_stopped(batches, run)?.into_iter().flatten().collect())
+    }
+}
+
+/// Does all pieces of work in parallel; begins no other once one has been stopped.
+fn run_unless_stopped<W: Send, T: Send>(
+    pieces: Vec<W>,
+    run: impl Fn(W) -> Option<T> + Sync,
+) -> Option<Vec<T>> {
+    let stopped = AtomicBool::new(false);
+    let run = |piece: W| {
+        let done = if stopped.load(Ordering::Relaxed) { None } else { run(piece) };
+        stopped.fetch_or(done.is_none(), Ordering::Relaxed);
+        done
+    };
+    let done: Vec<_> = pieces.into_par_iter().with_max_len(1).map(run).collect();
+    done.into_iter().collect()
+}

@@ -1,0 +1,157 @@
+//! What a study computes at length, one piece of work a method, so that whoever keeps finished work can
+//! stand in between.
+
+use std::ops::ControlFlow;
+
+use dynamics::{DynamicsError, Next, Outcome, Progress, Run, Snapshot, Start};
+use msf::{MasterStability, MsfError};
+use spectra::{SpectraError, Spectrum};
+
+use crate::{Error, Observer, Probe, Simulated, StepEffect, Study, Sweep, Warning};
+
+/// Does the long pieces of a study, and is told of the short ones.
+pub trait Compute {
+    /// What keeps it from being done.
+    type Error: From<Error>;
+
+    /// Λ(σ).
+    ///
+    /// # Errors
+    /// Where it cannot be computed, or the work was stopped.
+    fn curve(&self, study: &Study) -> Result<MasterStability, Self::Error>;
+
+    /// The modes.
+    ///
+    /// # Errors
+    /// As [`Self::curve`].
+    fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Self::Error>;
+
+    /// All replicas of a sweep, in their order.
+    ///
+    /// # Errors
+    /// As [`Self::curve`].
+    fn runs(&self, study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Self::Error>;
+
+    /// What the step does to some of them.
+    ///
+    /// # Errors
+    /// As [`Self::curve`].
+    fn step_effects(
+        &self,
+        study: &Study,
+        sweep: &Sweep,
+        simulated: &Simulated,
+    ) -> Result<Vec<StepEffect>, Self::Error>;
+
+    /// A shorter stage, of so many steps where that is known.
+    fn stage<T>(&self, name: &str, n_steps: Option<u64>, work: impl FnOnce(Progress<'_>) -> T)
+    -> T;
+
+    /// Is told of a warning.
+    fn warn(&self, warning: &Warning);
+}
+
+/// Computes everything, and keeps nothing beside the findings.
+pub(crate) struct Plainly<'a>(pub(crate) &'a dyn Observer);
+
+impl Plainly<'_> {
+    fn go_on(&self) -> Result<(), Error> {
+        if self.0.wants_to_stop() { Err(Error::Cancelled) } else { Ok(()) }
+    }
+}
+
+impl Compute for Plainly<'_> {
+    type Error = Error;
+
+    fn curve(&self, study: &Study) -> Result<MasterStability, Error> {
+        self.go_on()?;
+        self.0.begins("msf", Some(study.msf_steps()));
+        let advanced = |steps| told(self.0, steps);
+        msf::master_stability(&study.node, &study.msf, &advanced).map_err(not_curve)
+    }
+
+    fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
+        self.go_on()?;
+        self.0.begins("spectrum", None);
+        let advanced = |_| told(self.0, 0);
+        spectra::leading_modes_with(&study.matrix, request, &advanced).map_err(
+            |error| match error {
+                SpectraError::Cancelled => Error::Cancelled,
+                other => Error::Spectrum(other),
+            },
+        )
+    }
+
+    fn runs(&self, study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
+        self.go_on()?;
+        self.0.begins("sweep", Some(sweep.steps()));
+        let starts = sweep.replicas().into_iter().map(Start::from).collect();
+        let simulation = study.simulation(sweep, sweep.schedule);
+        simulation.run_observed(starts, &Watched(self.0)).map_err(|error| match error {
+            DynamicsError::Cancelled => Error::Cancelled,
+            other => Error::Sweep(other),
+        })
+    }
+
+    fn step_effects(
+        &self,
+        study: &Study,
+        sweep: &Sweep,
+        simulated: &Simulated,
+    ) -> Result<Vec<StepEffect>, Error> {
+        self.go_on()?;
+        let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
+        let at = |schedule: dynamics::Schedule| {
+            self.0.begins("half step", Some(probe.replicas.len() as u64 * schedule.steps()));
+            let starts = probe.replicas.iter().map(|&replica| Start::from(replica)).collect();
+            study.simulation(sweep, schedule).run_observed(starts, &Watched(self.0))
+        };
+        let [at_step, at_half] = probe.schedules.map(at);
+        let failed = |error| match error {
+            DynamicsError::Cancelled => Error::Cancelled,
+            other => Error::Sweep(other),
+        };
+        Ok(probe.effects(simulated, [&at_step.map_err(failed)?, &at_half.map_err(failed)?]))
+    }
+
+    fn stage<T>(
+        &self,
+        name: &str,
+        n_steps: Option<u64>,
+        work: impl FnOnce(Progress<'_>) -> T,
+    ) -> T {
+        self.0.begins(name, n_steps);
+        work(&|steps| told(self.0, steps))
+    }
+
+    fn warn(&self, warning: &Warning) {
+        self.0.warned(warning);
+    }
+}
+
+/// Tells of steps, and asks whether to go on.
+pub(crate) fn told(observer: &dyn Observer, steps: u64) -> ControlFlow<()> {
+    observer.advanced(steps);
+    if observer.wants_to_stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// What kept a curve from being computed.
+pub(crate) fn not_curve(error: MsfError) -> Error {
+    match error {
+        MsfError::Dynamics(DynamicsError::Cancelled) => Error::Cancelled,
+        other => Error::Curve(other),
+    }
+}
+
+/// A sweep that is watched.
+struct Watched<'a>(&'a dyn Observer);
+
+impl dynamics::Observer for Watched<'_> {
+    fn advanced(&self, _replicas: &[usize], steps: u64) -> Next {
+        if told(self.0, steps).is_break() { Next::Stop } else { Next::GoOn }
+    }
+
+    fn finished(&self, _replica: usize, _outcome: &Outcome) {}
+
+    fn snapshot(&self, _replica: usize, _snapshot: Snapshot) {}
+}

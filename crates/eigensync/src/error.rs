@@ -1,0 +1,41 @@
+//! What keeps a study from being finished.
+
+use clustering::ClusteringError;
+use dynamics::DynamicsError;
+use msf::MsfError;
+use spectra::SpectraError;
+
+/// Why there are no findings.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The curve Λ(σ).
+    #[error("the master stability function could not be computed: {0}")]
+    Curve(MsfError),
+    /// A perturbation may grow beyond all numbers between two renormalisations.
+    #[error(
+        "the master stability function could not be computed: at sigma = {sigma} perturbations grow \
+         beyond all numbers between two renormalisations"
+    )]
+    Overflow {
+        /// The first σ at which it does.
+        sigma: f64,
+    },
+    /// The modes.
+    #[error("the spectrum could not be computed: {0}")]
+    Spectrum(SpectraError),
+    /// The states over ε.
+    #[error("the cascade could not be predicted: {0}")]
+    Cascade(ClusteringError),
+    /// Which clusters are exact.
+    #[error("the clusters cannot be labelled: {0}")]
+    Labels(ClusteringError),
+    /// The replicas.
+    #[error("the sweep could not be simulated: {0}")]
+    Sweep(DynamicsError),
+    /// Both sides.
+    #[error("prediction and simulation cannot be compared: {0}")]
+    Agreement(ClusteringError),
+    /// The observer wanted to stop.
+    #[error("stopped before its end")]
+    Cancelled,
+}

@@ -1,0 +1,252 @@
+//! The stages of a study in their order: curve, modes, predicted states, sweep, agreement.
+
+use clustering::{
+    CascadeTree, ClusteringError, State, StateLabels, hold_against_links, merge_equal_clusters,
+};
+use dynamics::Progress;
+use msf::{CriticalCoupling, MasterStability, StableRegion};
+use rayon::prelude::*;
+use spectra::{RealModes, Spectrum};
+
+use crate::compute::{Plainly, not_curve, told};
+use crate::numbers::{four_digits, plain, two_digits};
+use crate::prediction::Known;
+use crate::synchrony::{Evidence, assumed_above};
+use crate::{
+    Compute, Error, Findings, Observer, Simulated, Study, Synchrony, Warning, Warnings, agreement,
+    doubts, stability,
+};
+
+/// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
+/// differ by rounding.
+pub const EQUITABLE: f64 = 1e-9;
+
+/// Clusters of fewer nodes are in no tree: a million single nodes tell nothing.
+const LEAST_LISTED: usize = 2;
+
+/// The largest residual, relative to the eigenvalue, that leaves this certain.
+const CERTAIN: f64 = 0.1;
+
+/// Times of a first look at Λ(σ), where nobody says how far to look.
+const FIRST_LOOK: dynamics::lyapunov::Times =
+    dynamics::lyapunov::Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+const POINTS: u32 = 121;
+
+/// Answers a study: predicts, and simulates where it asks for that.
+///
+/// Runs on the current rayon pool; the result does not depend on the number of threads.
+///
+/// # Errors
+/// What cannot be computed; [`Error::Cancelled`] when the observer wanted to stop.
+pub fn find(study: &Study, observer: &dyn Observer) -> Result<Findings, Error> {
+    let mut looked;
+    let mut study = study;
+    if study.msf.sigma.is_empty() {
+        observer.begins("first look at the msf", Some(16 * FIRST_LOOK.steps()));
+        let advanced = |steps| told(observer, steps);
+        let to = msf::reach(&study.node, &FIRST_LOOK, study.seed, &advanced).map_err(not_curve)?;
+        looked = study.clone();
+        let sigma = |k: u32| to * f64::from(k) / f64::from(POINTS - 1);
+        looked.msf.sigma = (0..POINTS).map(sigma).collect();
+        study = &looked;
+    }
+    find_by(study, &[], &Plainly(observer))
+}
+
+/// The same by whoever computes, after warnings that are known already.
+///
+/// # Errors
+/// Those of whoever computes.
+pub fn find_by<C: Compute>(
+    study: &Study,
+    before: &[Warning],
+    compute: &C,
+) -> Result<Findings, C::Error> {
+    let tell = |warning: &Warning| compute.warn(warning);
+    let mut warnings = Warnings::new(&tell);
+    for Warning { about, message } in before {
+        warnings.add(about, message.as_str());
+    }
+    let msf = compute.curve(study)?;
+    refuse_overflow(&msf)?;
+    doubts::warn_of_short_times(study, &mut warnings);
+    stability::warn(study, &msf, &mut warnings);
+    let stable = &msf.stable;
+    let n_nodes = study.network.n_nodes();
+    let request = study.modes.request(stable, n_nodes);
+    let spectrum = compute.spectrum(study, &request)?;
+    warn_of_weak_links(&spectrum, &mut warnings);
+    // Zero modes are zero exactly, and no others are.
+    let modes = spectrum.real_modes();
+    let mut critical = msf::critical_couplings(stable, &modes.eigenvalues, 0.0);
+    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &modes));
+    let fastest = fastest(study, &spectrum, stable, &mut warnings);
+    let fastest_rate = fastest.map_or_else(|| strongest(study), f64::abs);
+    if let Some(above) = assumed_above(stable, fastest_rate) {
+        let looked = four_digits(msf.sigma[msf.sigma.len() - 1]);
+        let above = four_digits(above);
+        let message = format!(
+            "nothing was looked at beyond σ = {looked}: above epsilon = {above} some modes are there, \
+             and are taken to be stable"
+        );
+        warnings.add("cascade", message);
+    }
+    let known = Known { spectrum: &spectrum, fastest };
+    if let Some(top) = known.top(stable) {
+        warnings.add("cascade", beyond(study, spectrum.n_modes(), top));
+    }
+    let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
+    let states = compute
+        .stage("clusters", Some(n_states), |progress| {
+            let mut states = known.states(stable, study.rule, &|n| {
+                let _ = progress(n);
+            })?;
+            if stable.intervals.is_empty() {
+                known.end_where_the_look_began(&mut states, msf.sigma[0]);
+            }
+            let matrix = study.matrix.matrix().view();
+            hold_against_links(&mut states, &spectrum, matrix, study.rule, EQUITABLE)?;
+            Ok(states)
+        })
+        .map_err(Error::Cascade)?;
+    let mut simulated = None;
+    let (mut step_effects, mut agreement) = (Vec::new(), Vec::new());
+    if let Some(sweep) = &study.sweep {
+        let runs = compute.runs(study, sweep)?;
+        doubts::warn_of_failures(&runs, &mut warnings);
+        let mut sweeps = Simulated::new(sweep, n_nodes, runs);
+        sweeps.apart = doubts::apart(&msf);
+        doubts::warn_of_runs(&msf, &sweeps, &mut warnings);
+        step_effects = compute.step_effects(study, sweep, &sweeps)?;
+        step_effects.iter().for_each(|effect| effect.warn(&mut warnings));
+        agreement = compute
+            .stage("agreement", None, |_| agreement::at_all(study, &spectrum, &states, &sweeps))?;
+        simulated = Some(sweeps);
+    }
+    let synchrony = Synchrony::of(&Evidence {
+        known,
+        stable,
+        critical: &critical,
+        states: &states,
+        n_components: study.n_components,
+        n_rests: msf.rests.len(),
+        looked: &msf.sigma,
+        fastest_rate,
+    });
+    let cascade = merge_equal_clusters(&states);
+    let labels = compute
+        .stage("labels", Some(cascade.len() as u64), |progress| {
+            labels(study, &spectrum, &cascade, &states, progress)
+        })
+        .map_err(Error::Labels)?;
+    drop(states);
+    let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
+    trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
+    let mut findings = Findings {
+        cascade,
+        labels,
+        trees,
+        spectrum,
+        msf,
+        critical,
+        synchrony,
+        simulated,
+        step_effects,
+        agreement,
+        warnings: Vec::new(),
+    };
+    doubts::warn_of_groups(&findings, &mut warnings);
+    findings.warnings = warnings.into_list();
+    Ok(findings)
+}
+
+/// Warns of eigenvalues that rounding beside the largest weight leaves uncertain.
+fn warn_of_weak_links(spectrum: &Spectrum, warnings: &mut Warnings<'_>) {
+    let spectrum = spectrum.real_modes();
+    let n_zero = spectrum.eigenspaces.first().map_or(0, ExactSizeIterator::len);
+    let modes = spectrum.eigenvalues.iter().enumerate().skip(n_zero);
+    let mut lost = modes.filter(|(mode, lambda)| spectrum.error(*mode) > CERTAIN * lambda.abs());
+    let Some((mode, lambda)) = lost.next() else { return };
+    let message = format!(
+        "lambda_{} = {} is uncertain by {}, and so are {} more eigenvalues: links much weaker than \
+         the strongest are lost in rounding",
+        mode + 1,
+        four_digits(*lambda),
+        two_digits(spectrum.error(mode)),
+        lost.count()
+    );
+    warnings.add("eigenvalues", message);
+}
+
+/// A perturbation may grow beyond all numbers between two renormalisations.
+fn refuse_overflow(msf: &MasterStability) -> Result<(), Error> {
+    match msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) {
+        Some(at) => Err(Error::Overflow { sigma: msf.sigma[at] }),
+        None => Ok(()),
+    }
+}
+
+/// ε_k = σ/|λ_k| is as uncertain as both; λ_k is so where the links behind it are lost in rounding.
+fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, modes: &RealModes<'_>) {
+    let relative = modes.error(critical.mode - 1) / critical.lambda.abs();
+    if critical.epsilon.is_finite() {
+        critical.standard_error = critical.standard_error.hypot(critical.epsilon * relative);
+    }
+}
+
+/// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.
+fn fastest(
+    study: &Study,
+    spectrum: &Spectrum,
+    stable: &StableRegion,
+    warnings: &mut Warnings<'_>,
+) -> Option<f64> {
+    if spectrum.is_whole() {
+        return spectrum.real_eigenvalues().last().copied();
+    }
+    if stable.is_unbounded() {
+        return None;
+    }
+    match spectra::smallest_eigenvalue(&study.matrix) {
+        Ok(lambda) => Some(lambda),
+        Err(error) => {
+            warnings.add("global_synchrony", format!("λ_N is not known: {error}"));
+            None
+        }
+    }
+}
+
+/// The largest |w_ii|, which |λ_N| is at least.
+fn strongest(study: &Study) -> f64 {
+    let diagonal = study.matrix.matrix().diag_iter();
+    diagonal.flatten().fold(0.0, |largest, w| largest.max(w.abs()))
+}
+
+/// What is not predicted from a part of the modes, and what would be needed for it.
+fn beyond(study: &Study, computed: usize, top: f64) -> String {
+    format!(
+        "the stable set has an upper end, and {computed} of {} modes were computed: above epsilon = {} \
+         the fastest modes may be unstable, and nothing is predicted there. `spectrum.modes = \"all\"` \
+         decides it",
+        study.network.n_nodes(),
+        plain(top)
+    )
+}
+
+/// Which clusters are exact and which approximate, state by state.
+fn labels(
+    study: &Study,
+    spectrum: &Spectrum,
+    cascade: &[State],
+    stretches: &[State],
+    progress: Progress<'_>,
+) -> Result<Vec<StateLabels>, ClusteringError> {
+    let (matrix, rule) = (study.matrix.matrix().view(), study.rule);
+    let of = |state: &State| {
+        let stretches = state.stretches(stretches);
+        let labels = StateLabels::of(state, stretches, spectrum, matrix, rule, EQUITABLE);
+        let _ = progress(1);
+        labels
+    };
+    cascade.par_iter().map(of).collect()
+}

@@ -1,0 +1,30 @@
+//! Who watches a study: told of its stages, its progress and its warnings, and free to stop it.
+
+use crate::Warning;
+
+/// Told of a study as it goes on. Every method does nothing by default.
+pub trait Observer: Sync {
+    /// A stage begins; it has about so many steps, where that is known.
+    fn begins(&self, stage: &str, n_steps: Option<u64>) {
+        let _ = (stage, n_steps);
+    }
+
+    /// Steps of this stage were done; from any thread.
+    fn advanced(&self, n_steps: u64) {
+        let _ = n_steps;
+    }
+
+    /// A warning came up.
+    fn warned(&self, warning: &Warning) {
+        let _ = warning;
+    }
+
+    /// Whether to stop: asked at every step that is told, and between stages. Only the dense solver,
+    /// which tells of none, is not stopped on the way.
+    fn wants_to_stop(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+impl Observer for () {}

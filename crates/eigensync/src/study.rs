@@ -1,0 +1,146 @@
+//! What is asked: a network, an oscillator, how to compute, and what to simulate.
+
+use clustering::ClusterRule;
+use dynamics::lyapunov::Times;
+use dynamics::{InstructionSet, Method, Observables, ROUNDING_KICK, Replica, Schedule, Simulation};
+use graph::{CouplingMatrix, Network, Normalization};
+use msf::{Node, Refinement};
+use spectra::SolverChoice;
+
+use crate::{Bound, WantedModes};
+
+/// A question about one network of one oscillator.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Nodes, links, groups.
+    pub network: Network,
+    /// Its connected components.
+    pub n_components: usize,
+    /// W.
+    pub matrix: CouplingMatrix,
+    /// F and H.
+    pub node: Node,
+    /// How Λ(σ) is computed. Without any σ the grid is chosen: see [`Study::new`].
+    pub msf: msf::Request,
+    /// Which modes, by which solver.
+    pub modes: WantedModes,
+    /// When nodes are one cluster.
+    pub rule: ClusterRule,
+    /// Thresholds of regions, where the network has groups that are regions.
+    pub regions: Option<RegionBounds>,
+    /// What to simulate.
+    pub sweep: Option<Sweep>,
+    /// Of the isolated orbit by which times are judged.
+    pub seed: u64,
+}
+
+/// Bounds within and between regions, of δe_ij and of δx_ij.
+#[derive(Clone, Copy, Debug)]
+pub struct RegionBounds {
+    /// δe_ij within a region.
+    pub distance_within: Bound,
+    /// δe_ij between regions.
+    pub distance_between: Bound,
+    /// δx_ij within a region.
+    pub error_within: Bound,
+    /// δx_ij between regions.
+    pub error_between: Bound,
+}
+
+/// Simulations over ε.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// Coupling strengths, ascending.
+    pub epsilon: Vec<f64>,
+    /// Seeds of initial states at every ε.
+    pub seeds: Vec<u64>,
+    /// Integrator.
+    pub method: Method,
+    /// Times.
+    pub schedule: Schedule,
+    /// What to average.
+    pub observables: Observables,
+    /// Below which errors count as synchrony.
+    pub synchronised_below: Bound,
+    /// Relative size of random kicks.
+    pub kick: f64,
+}
+
+impl Study {
+    /// A study with the defaults: Λ(σ) from 121 points to twice the last change of its sign, all modes
+    /// up to 5000 nodes, exact clusters, no simulation.
+    pub fn new(network: Network, normalization: Normalization, node: Node) -> Self {
+        let n_components = network.components().len();
+        let times = Times { step: 0.01, transient: 500.0, average: 2e4, renormalise: 0.5 };
+        Self {
+            matrix: CouplingMatrix::new(&network, normalization),
+            n_components,
+            node,
+            msf: msf::Request {
+                sigma: Vec::new(),
+                times,
+                refinement: Refinement::default(),
+                seed: 1,
+                instruction_set: InstructionSet::best(),
+            },
+            modes: WantedModes::new(
+                (network.n_nodes(), n_components),
+                None,
+                SolverChoice::Auto,
+                None,
+            ),
+            network,
+            rule: ClusterRule::Exact,
+            regions: None,
+            sweep: None,
+            seed: 1,
+        }
+    }
+
+    /// The simulation of a sweep, at one of its schedules.
+    pub fn simulation(&self, sweep: &Sweep, schedule: Schedule) -> Simulation<'_> {
+        Simulation {
+            dynamics: self.node.dynamics.clone(),
+            coupling: self.node.coupling.clone(),
+            matrix: self.matrix.matrix(),
+            method: sweep.method,
+            schedule,
+            observables: sweep.observables.clone(),
+            kick: sweep.kick,
+            instruction_set: self.msf.instruction_set,
+        }
+    }
+
+    /// Steps of all tangent vectors of the MSF, refinement of one zero included, with what is run at
+    /// half the step.
+    pub fn msf_steps(&self) -> u64 {
+        (self.msf.looked_at().len() as u64 + 16 + 64 + 2 * (8 + 16)) * self.msf.times.steps()
+    }
+}
+
+impl Sweep {
+    /// A sweep of all pairs with the defaults: RK4 at a step of 0.01, a transient of 500 and an average
+    /// of 1000 time units sampled every tenth step, four seeds, synchrony below 0.05.
+    pub fn over(epsilon: Vec<f64>) -> Self {
+        Self {
+            epsilon,
+            seeds: vec![1, 2, 3, 4],
+            method: Method::Rk4,
+            schedule: Schedule { step: 0.01, transient: 500.0, average: 1000.0, stride: 10 },
+            observables: Observables { pairs: true, ..Observables::default() },
+            synchronised_below: Bound::Fixed(0.05),
+            kick: ROUNDING_KICK,
+        }
+    }
+
+    /// All replicas, seed by seed within each ε.
+    pub fn replicas(&self) -> Vec<Replica> {
+        let of = |&epsilon| self.seeds.iter().map(move |&seed| Replica { epsilon, seed });
+        self.epsilon.iter().flat_map(of).collect()
+    }
+
+    /// Steps of all replicas together.
+    pub fn steps(&self) -> u64 {
+        self.replicas().len() as u64 * self.schedule.steps()
+    }
+}

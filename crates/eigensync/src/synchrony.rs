@@ -1,0 +1,321 @@
+//! Whether all nodes can synchronise, and at which ε, in the sentence that a paper prints.
+//!
+//! A window (σ₁, σ₂) of the stable set holds all transverse modes at σ₁ / |λ_2| < ε < σ₂ / |λ_N|, which
+//! exists when the eigenratio λ_N / λ_2 is below the window's ratio σ₂ / σ₁ (M. Barahona & L. M. Pecora,
+//! Phys. Rev. Lett. 89, 054101 (2002)). Zero modes of other components are stable only where Λ(0) < 0
+//! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
+//! same one.
+
+use clustering::State;
+use msf::{CriticalCoupling, End, Interval, StableRegion};
+use serde::Serialize;
+
+use crate::numbers::{four_digits, three_digits, two_digits};
+use crate::prediction::Known;
+
+/// The verdict with its numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct Synchrony {
+    /// The sentence.
+    pub verdict: String,
+    /// λ_N / λ_2, of the transverse modes that are not zero; none without links or without λ_N.
+    pub eigenratio: Option<f64>,
+    /// σ₂ / σ₁ of each window; none where it is infinite.
+    pub window_ratios: Vec<Option<f64>>,
+    /// The ranges of ε at which all nodes synchronise.
+    pub epsilon: Vec<EpsilonRange>,
+}
+
+/// A range of ε with the standard errors of its ends.
+#[derive(Clone, Debug, Serialize)]
+pub struct EpsilonRange {
+    /// Lower end.
+    pub from: f64,
+    /// Of the lower end, where it is a zero of Λ over an eigenvalue.
+    pub from_standard_error: Option<f64>,
+    /// None where it has no end.
+    pub to: Option<f64>,
+    /// Of the upper end.
+    pub to_standard_error: Option<f64>,
+}
+
+/// What a verdict is made from.
+pub struct Evidence<'a> {
+    pub known: Known<'a>,
+    pub stable: &'a StableRegion,
+    pub critical: &'a [CriticalCoupling],
+    /// Predicted states, neighbours of equal clusters not yet merged.
+    pub states: &'a [State],
+    pub n_components: usize,
+    /// In how many different states isolated oscillators come to rest; 0 where they do not.
+    pub n_rests: usize,
+    /// The σ that were looked at, ascending.
+    pub looked: &'a [f64],
+    /// |λ_N|, or what it is at least.
+    pub fastest_rate: f64,
+}
+
+/// ε above which λ_N has a σ beyond all that were looked at, where the set counts as unbounded.
+pub fn assumed_above(stable: &StableRegion, fastest_rate: f64) -> Option<f64> {
+    let top = stable.intervals.last().filter(|last| last.to.is_looked())?.to.sigma();
+    (top.is_finite() && fastest_rate > 0.0).then(|| top / fastest_rate)
+}
+
+impl Synchrony {
+    /// From the evidence.
+    pub fn of(evidence: &Evidence<'_>) -> Self {
+        let stable = evidence.stable;
+        let epsilon = evidence.ranges();
+        Self {
+            eigenratio: evidence.eigenratio(),
+            window_ratios: stable.intervals.iter().map(ratio).collect(),
+            verdict: evidence.verdict(&epsilon) + &evidence.assumption(&epsilon),
+            epsilon,
+        }
+    }
+}
+
+impl Evidence<'_> {
+    /// Where no mode is unstable, and the range begins and ends by a mode that becomes so.
+    fn ranges(&self) -> Vec<EpsilonRange> {
+        let synchronous = self.states.iter().filter(|state| state.unstable_modes.is_empty());
+        let mut ranges: Vec<EpsilonRange> = synchronous
+            .map(|state| {
+                let (from, to) = state.epsilon;
+                EpsilonRange {
+                    from,
+                    from_standard_error: self.error_at(from),
+                    to,
+                    to_standard_error: to.and_then(|to| self.error_at(to)),
+                }
+            })
+            .collect();
+        if let (Some(top), Some(highest)) = (self.known.top(self.stable), ranges.first_mut())
+            && highest.to == Some(top)
+        {
+            // λ_N is of no mode that was computed.
+            let zero = self.stable.intervals.first().and_then(|first| first.to.zero());
+            highest.to_standard_error = zero.map(|zero| zero.standard_error / zero.sigma * top);
+        }
+        ranges.reverse();
+        ranges
+    }
+
+    fn error_at(&self, epsilon: f64) -> Option<f64> {
+        let here = |c: &&CriticalCoupling| (c.epsilon - epsilon).abs() <= 1e-9 * epsilon;
+        self.critical.iter().find(here).map(|critical| critical.standard_error)
+    }
+
+    fn slowest(&self) -> Option<f64> {
+        self.known.slowest()
+    }
+
+    fn eigenratio(&self) -> Option<f64> {
+        Some(self.known.fastest? / self.slowest()?)
+    }
+
+    /// What a verdict takes for granted: that σ beyond the look are stable.
+    fn assumption(&self, ranges: &[EpsilonRange]) -> String {
+        let Some(above) = assumed_above(self.stable, self.fastest_rate) else {
+            return String::new();
+        };
+        let looked = four_digits(self.looked.last().copied().unwrap_or_default());
+        match ranges.last() {
+            Some(range) if range.to.is_none() && above <= range.from => {
+                format!(", if σ beyond {looked}, where nothing was looked at, are stable")
+            }
+            Some(range) if range.to.is_none() => format!(
+                "; for ε > {} only if σ beyond {looked}, where nothing was looked at, are stable",
+                four_digits(above)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    fn verdict(&self, ranges: &[EpsilonRange]) -> String {
+        let at_rest = self.stable.contains(0.0);
+        let never = |why: String| format!("no ε synchronises all nodes: {why}");
+        if self.stable.intervals.is_empty() {
+            return never(format!("of {} none was found stable", looked(self.looked)));
+        }
+        if self.n_components > 1 && !at_rest {
+            return never(format!("the network has {} components", self.n_components));
+        }
+        if !ranges.is_empty() {
+            let ranges: Vec<String> = ranges.iter().map(|range| range.in_words(at_rest)).collect();
+            let rest = match self.n_rests {
+                0 | 1 if at_rest => ", since each comes to rest by itself".to_owned(),
+                0 | 1 => String::new(),
+                n => format!(
+                    " if they come to the same one of the {n} states in which isolated oscillators rest"
+                ),
+            };
+            return format!("all nodes synchronise for {}{rest}", ranges.join(" and for "));
+        }
+        let ratios: Vec<String> =
+            self.stable.intervals.iter().filter_map(ratio).map(three_digits).collect();
+        match self.eigenratio().map(three_digits) {
+            Some(own) if ratios.len() == self.stable.intervals.len() => {
+                let windows = match &ratios[..] {
+                    [one] => format!("the window's {one}"),
+                    several => format!("that of each window ({})", several.join(", ")),
+                };
+                format!("λ_N/λ_2 = {own} exceeds {windows}: no ε synchronises all nodes")
+            }
+            _ => "whether an ε synchronises all nodes was not found out".into(),
+        }
+    }
+}
+
+impl EpsilonRange {
+    fn in_words(&self, at_rest: bool) -> String {
+        let end = |value: f64, error: Option<f64>| match error {
+            Some(error) if error > 0.0 => {
+                format!("{} (± {})", four_digits(value), two_digits(error))
+            }
+            _ => four_digits(value),
+        };
+        let from = end(self.from, self.from_standard_error);
+        match (self.from > 0.0, self.to) {
+            (false, None) if at_rest => "every ε".into(),
+            (false, None) => "every ε > 0".into(),
+            (true, None) => format!("ε > {from}"),
+            (false, Some(to)) => format!("ε < {}", end(to, self.to_standard_error)),
+            (true, Some(to)) => format!("{from} < ε < {}", end(to, self.to_standard_error)),
+        }
+    }
+}
+
+/// From where to where and at how many σ was looked, in words.
+pub fn looked(sigma: &[f64]) -> String {
+    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
+    format!("{} sigma from {from} to {to}", sigma.len())
+}
+
+/// σ₂ / σ₁ of an interval; none where it is infinite or not known.
+fn ratio(interval: &Interval) -> Option<f64> {
+    match (interval.from, interval.upper()) {
+        (End::Zero(_) | End::Looked { .. }, Some(to)) => Some(to / interval.lower()),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clustering::{ClusterRule, cascade};
+    use graph::{CouplingMatrix, Network, Normalization};
+    use spectra::{Request, leading_modes};
+
+    use super::*;
+
+    /// The verdict on a network of links of weight 1, with all of its modes.
+    fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
+        verdict_at_rest(n_nodes, links, intervals, 0)
+    }
+
+    /// The same where isolated oscillators rest in so many states.
+    fn verdict_at_rest(
+        n_nodes: usize,
+        links: &[(usize, usize)],
+        intervals: Vec<Interval>,
+        n_rests: usize,
+    ) -> String {
+        let links: Vec<_> = links.iter().map(|&(i, j)| (i, j, 1.0)).collect();
+        let labels = (0..n_nodes).map(|node| node.to_string()).collect();
+        let network = Network::undirected(labels, &links).unwrap();
+        let n_components = network.components().len();
+        let w = CouplingMatrix::new(&network, Normalization::Laplacian);
+        let spectrum = leading_modes(&w, &Request::default()).unwrap();
+        let stable = StableRegion { intervals };
+        let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
+        let fastest = spectrum.real_eigenvalues().last().copied();
+        let evidence = Evidence {
+            known: Known { spectrum: &spectrum, fastest },
+            critical: &[],
+            states: &states,
+            stable: &stable,
+            n_components,
+            n_rests,
+            looked: &[0.0, 20.0, 50.0],
+            fastest_rate: fastest.map_or(0.0, f64::abs),
+        };
+        Synchrony::of(&evidence).verdict
+    }
+
+    // A path of three: λ = 0, −1, −3.
+    const PATH: [(usize, usize); 2] = [(0, 1), (1, 2)];
+
+    #[test]
+    fn a_window_wider_than_the_eigenratio_is_where_all_nodes_synchronise() {
+        let window = vec![Interval::known(1.0, Some(4.5))];
+        assert_eq!(verdict(3, &PATH, window), "all nodes synchronise for 1 < ε < 1.5");
+        let unbounded = vec![Interval::known(8.0, None)];
+        assert_eq!(verdict(3, &PATH, unbounded), "all nodes synchronise for ε > 8");
+        let periodic = vec![Interval::known(0.0, None)];
+        assert_eq!(verdict(3, &PATH, periodic), "all nodes synchronise for every ε > 0");
+    }
+
+    #[test]
+    fn a_verdict_that_leans_on_what_was_not_looked_at_says_so() {
+        let to = End::Looked { sigma: 50.0 };
+        let of = |from| verdict(3, &PATH, vec![Interval { to, ..Interval::known(from, None) }]);
+        // σ_N = 3ε passes 50 at ε = 16.67.
+        assert_eq!(
+            of(8.0),
+            "all nodes synchronise for ε > 8; for ε > 16.67 only if σ beyond 50, where nothing was \
+             looked at, are stable"
+        );
+        assert_eq!(
+            of(20.0),
+            "all nodes synchronise for ε > 20, if σ beyond 50, where nothing was looked at, are stable"
+        );
+    }
+
+    #[test]
+    fn a_window_that_is_too_narrow_is_told_with_both_ratios() {
+        let window = vec![Interval::known(1.0, Some(2.0))];
+        let expected = "λ_N/λ_2 = 3 exceeds the window's 2: no ε synchronises all nodes";
+        assert_eq!(verdict(3, &PATH, window), expected);
+        let two = vec![Interval::known(1.0, Some(2.0)), Interval::known(8.0, Some(10.0))];
+        let expected =
+            "λ_N/λ_2 = 3 exceeds that of each window (2, 1.25): no ε synchronises all nodes";
+        assert_eq!(verdict(3, &PATH, two), expected);
+    }
+
+    #[test]
+    fn modes_in_different_windows_synchronise_too() {
+        // At ε = 1.5 the modes have σ = 1.5 and 4.5.
+        let two = vec![Interval::known(1.0, Some(2.0)), Interval::known(4.0, Some(5.0))];
+        assert_eq!(verdict(3, &PATH, two), "all nodes synchronise for 1.333 < ε < 1.667");
+    }
+
+    #[test]
+    fn oscillators_at_rest_in_different_states_synchronise_in_the_same_one_only() {
+        let from_origin = vec![Interval::known(0.0, None)];
+        let expected = "all nodes synchronise for every ε > 0 if they come to the same one of the 2 \
+                        states in which isolated oscillators rest";
+        assert_eq!(verdict_at_rest(3, &PATH, from_origin.clone(), 2), expected);
+        let pairs = [(0, 1), (2, 3)];
+        let expected = "no ε synchronises all nodes: the network has 2 components";
+        assert_eq!(verdict_at_rest(4, &pairs, from_origin, 2), expected);
+    }
+
+    #[test]
+    fn components_synchronise_only_where_each_node_comes_to_rest() {
+        let pairs = [(0, 1), (2, 3)];
+        let above = Interval::known(1.0, None);
+        assert_eq!(
+            verdict(4, &pairs, vec![above]),
+            "no ε synchronises all nodes: the network has 2 components"
+        );
+        let at_rest = Interval { from: End::Origin { included: true }, ..above };
+        assert_eq!(
+            verdict(4, &pairs, vec![at_rest]),
+            "all nodes synchronise for every ε, since each comes to rest by itself"
+        );
+        assert_eq!(
+            verdict(4, &pairs, vec![]),
+            "no ε synchronises all nodes: of 3 sigma from 0 to 50 none was found stable"
+        );
+    }
+}

@@ -1,0 +1,66 @@
+//! A study that is to be stopped stops soon, in whatever stage it is.
+
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use eigensync::dynamics::{Coupling, Native, Rossler};
+use eigensync::graph::Normalization;
+use eigensync::graph::formats::edge_list;
+use eigensync::{Error, Node, Observer, Study, Sweep, find};
+
+/// Wants to stop a moment after a stage has begun.
+struct StopIn {
+    stage: &'static str,
+    since: Mutex<Option<Instant>>,
+}
+
+const MOMENT: Duration = Duration::from_millis(20);
+
+impl Observer for StopIn {
+    fn begins(&self, stage: &str, _: Option<u64>) {
+        if stage == self.stage {
+            self.since.lock().unwrap().get_or_insert(Instant::now());
+        }
+    }
+
+    fn wants_to_stop(&self) -> bool {
+        self.since.lock().unwrap().is_some_and(|since| since.elapsed() > MOMENT)
+    }
+}
+
+/// A study of hours.
+fn endless() -> Study {
+    let network = edge_list::read("a b\nb c\nc d\nd a".as_bytes()).unwrap();
+    let rossler = Arc::new(Native::new(Rossler::default()));
+    let node = Node { dynamics: rossler, coupling: Coupling::pair(0, 0) };
+    let mut study = Study::new(network, Normalization::Laplacian, node);
+    study.msf.sigma = vec![0.0, 1.0, 2.0];
+    study.msf.times.average = 200.0;
+    study.msf.refinement.max_rounds = 4;
+    let mut sweep = Sweep::over(vec![0.1, 0.5, 1.0]);
+    sweep.schedule.average = 1e8;
+    study.sweep = Some(sweep);
+    study
+}
+
+#[test]
+fn a_study_stops_within_a_second_in_every_long_stage() {
+    let mut endless_curve = endless();
+    endless_curve.msf.times.average = 1e8;
+    let mut endless_look = endless();
+    endless_look.msf.sigma.clear();
+    let stages =
+        [("first look at the msf", endless_look), ("msf", endless_curve), ("sweep", endless())];
+    for (stage, study) in stages {
+        let observer = StopIn { stage, since: Mutex::new(None) };
+        let found = find(&study, &observer);
+        let since = observer.since.lock().unwrap().expect("the stage has begun");
+        assert!(
+            since.elapsed() < MOMENT + Duration::from_secs(1),
+            "{stage}: {:?}",
+            since.elapsed()
+        );
+        assert!(matches!(found, Err(Error::Cancelled)), "{stage}: {:?}", found.err());
+    }
+}
