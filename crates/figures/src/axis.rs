@@ -2,6 +2,7 @@
 //!
 //! Linear ticks stand at multiples of 1, 2 or 5 · 10ⁿ, logarithmic ones at powers of ten.
 
+use super::canvas::Point;
 use super::error::FigureError;
 use super::label::Label;
 
@@ -45,6 +46,20 @@ pub(super) struct Axis {
     /// Places on the page of the two ends, in points.
     start: f64,
     end: f64,
+}
+
+/// The two axes laid over a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Axes {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+}
+
+impl Axes {
+    /// Where a point stands on the page; none for what cannot be drawn.
+    pub(super) fn at(&self, x: f64, y: f64) -> Option<Point> {
+        Some([self.x.at(x)?, self.y.at(y)?])
+    }
 }
 
 /// Places far outside the page are kept within this many points, so that coordinates stay short.

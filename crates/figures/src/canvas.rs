@@ -257,6 +257,9 @@ impl Canvas {
         ink: &str,
         upwards: bool,
     ) {
+        if label.is_empty() {
+            return;
+        }
         let pieces = label.pieces(size);
         let (name, before) = match anchor {
             Anchor::Start => ("start", 0.0),

@@ -13,8 +13,6 @@ mod columns;
 mod layout;
 mod ruler;
 
-pub use check::CascadeError;
-
 use super::axis::{Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Rect};
 use super::error::FigureError;
@@ -44,6 +42,8 @@ pub struct CascadePanel {
     pub n_nodes: usize,
     /// The states, at least one, each beginning in ε where the one before ends.
     pub states: Vec<CascadeState>,
+    /// Position of the state whose clusters another panel of the figure shows, which has a frame.
+    pub shown: Option<usize>,
 }
 
 /// The clusters between two critical couplings.
@@ -65,8 +65,10 @@ pub struct CascadeCluster {
     /// first state, or where clusters have merged again. A state with such a merged cluster is
     /// laid out anew, by size, since no place in the state before holds it.
     pub parent: Option<usize>,
-    /// Shown where there is room, such as "1–30" or a name of a group; empty for none.
-    pub label: String,
+    /// Shown where there is room, such as C₁ or a name of a group; empty for none.
+    pub label: Label,
+    /// Number of its colour, the same in all panels. The largest part of a cluster has its colour.
+    pub colour: usize,
 }
 
 impl CascadeState {

@@ -27,17 +27,19 @@ pub fn components_panel(modes: &[Mode], groups: &[Group]) -> LinePanel {
         // There is no node 0, and so no tick at it.
         x_range: Some([0.25, n_nodes as f64 + 0.75]),
         zero_line: true,
-        series: modes.iter().enumerate().map(|(style, mode)| series(style, mode)).collect(),
+        series: modes.iter().enumerate().map(|(k, mode)| series(k, groups.len(), mode)).collect(),
         marks_only: true,
         spans: groups.iter().map(span).collect(),
         ..LinePanel::default()
     }
 }
 
-fn series(style: usize, mode: &Mode) -> Series {
+/// A mode has none of the colours of the groups, which it is not about.
+fn series(style: usize, n_groups: usize, mode: &Mode) -> Series {
     Series {
         label: mode.label.clone(),
         style,
+        cluster: Some(n_groups + style),
         x: (1..=mode.components.len()).map(|node| node as f64).collect(),
         y: mode.components.clone(),
         ..Series::default()
@@ -60,6 +62,7 @@ mod tests {
         let panel = components_panel(&modes, &groups);
         assert_eq!(panel.series[0].x, [1.0, 2.0, 3.0, 4.0]);
         assert_eq!((panel.spans[0].from, panel.spans[0].to), (0.5, 3.5));
+        assert_eq!(panel.series[0].cluster, Some(1), "a mode has the colour of a group");
         let [from, to] = panel.x_range.unwrap();
         assert!(from < 1.0 && to > 4.0);
     }

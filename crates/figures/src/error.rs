@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::cascade::CascadeError;
+use super::cascade_error::CascadeError;
 
 /// Why a figure could not be drawn. `panel` is the letter of the panel, as in "(a1)".
 #[derive(Debug, Error)]
@@ -41,6 +41,12 @@ pub enum FigureError {
         n_rows: usize,
         /// Columns of the grid.
         n_columns: usize,
+    },
+    /// A page that could not be written.
+    #[error("no PDF can be made: {reason}")]
+    Pdf {
+        /// Why.
+        reason: String,
     },
     /// A fault of the program itself.
     #[error("panel {panel} met a fault of eigensync in drawing")]

@@ -14,6 +14,7 @@ use super::label::Label;
 use super::style::{
     AXIS_WIDTH, HEADER, INK, LABEL_SIZE, NOTE_SIZE, Stroke, TICK_SIZE, UNCLUSTERED,
 };
+use super::title;
 
 /// A dot of a PNG at 300 dots per inch, in points.
 const DOT: f64 = 0.24;
@@ -81,12 +82,14 @@ impl HeatMapPanel {
                 canvas.label(&self.without_values, at, NOTE_SIZE, Anchor::Middle);
             }
         }
-        let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
         let middle = (matrix.left + matrix.right) / 2.0;
-        canvas.label(&self.title, [middle, baseline], NOTE_SIZE, Anchor::Middle);
+        let mut right = cell.right;
         if range.is_some() {
-            canvas.label(&self.bar_label, [bar.left, baseline], LABEL_SIZE, Anchor::Start);
+            right = bar.left;
+            let at = [bar.left, title::baseline(cell)];
+            canvas.label(&self.bar_label, at, LABEL_SIZE, Anchor::Start);
         }
+        title::draw(canvas, &self.title, middle, (cell, right), panel);
         Ok(())
     }
 

@@ -6,10 +6,10 @@
 
 use std::ops::Range;
 
+use super::figure::{COLUMN_GAP, Content, Figure, POINTS_PER_MM, Panel, ROW_GAP};
 use super::heat_map::HeatMapPanel;
 use super::lines::LinePanel;
 use super::network::NetworkPanel;
-use super::{COLUMN_GAP, Content, Figure, Panel, ROW_GAP};
 
 /// Width of a figure that fills a page, in mm.
 const WIDTH_MM: f64 = 170.0;
@@ -88,7 +88,7 @@ fn panel(letter: &str, rows: Range<usize>, columns: Range<usize>, content: Conte
 
 /// Columns of equal widths, rows as high as their aspects over one column say.
 fn grid(title: String, n_columns: usize, aspects: Vec<f64>, panels: Vec<Panel>) -> Figure {
-    let gap = |points: f64, n: usize| points / super::POINTS_PER_MM * (n - 1) as f64;
+    let gap = |points: f64, n: usize| points / POINTS_PER_MM * (n - 1) as f64;
     let column = (WIDTH_MM - gap(COLUMN_GAP, n_columns)) / n_columns as f64;
     let height_mm = column * aspects.iter().sum::<f64>() + gap(ROW_GAP, aspects.len());
     Figure {

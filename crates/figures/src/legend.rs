@@ -13,6 +13,8 @@ const SAMPLE_GAP: f64 = 4.0;
 /// Distance between the entries of one row.
 const STRIP_GAP: f64 = 9.0;
 const ROW: f64 = 1.3 * NOTE_SIZE;
+/// Rows above and below a point in which its label may stand.
+const ROWS_BESIDE: i32 = 4;
 /// Distance kept from the frame and from data.
 const CLEARANCE: f64 = 4.0;
 
@@ -155,36 +157,43 @@ pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, [left, middle]: Poi
     canvas.label(entry.label, at, NOTE_SIZE, Anchor::Start);
 }
 
-/// Upper left corner of a box beside a point, in the quadrant where it covers least of `points`
-/// and, if any does, stays within the frame and clear of other boxes.
+/// Upper left corner of a box beside a point, where it covers least of `points`, within the frame and
+/// clear of other boxes, as near as can be; none where there is no such place.
 pub(super) fn beside(
     [x, y]: Point,
     [width, height]: [f64; 2],
     frame: Rect,
     points: &[Point],
     boxes: &[Rect],
-) -> Point {
+) -> Option<Point> {
     let gap = 3.5;
-    let corners = [
-        [x + gap, y - gap - height],
-        [x - gap - width, y - gap - height],
-        [x + gap, y + gap],
-        [x - gap - width, y + gap],
-    ];
-    let cost = |[left, top]: Point| {
-        let covered = Rect { left, top, right: left + width, bottom: top + height };
-        let inside = frame.contains([left, top]) && frame.contains([covered.right, covered.bottom]);
-        let hidden = points.iter().filter(|&&p| covered.grown(1.5).contains(p)).count();
-        let is_met = |other: &&Rect| {
-            left < other.right
+    let corners = (0..ROWS_BESIDE).flat_map(|row| {
+        let far = gap + f64::from(row) * height;
+        [
+            [x + gap, y - far - height],
+            [x - gap - width, y - far - height],
+            [x + gap, y + far],
+            [x - gap - width, y + far],
+        ]
+    });
+    let covered =
+        |[left, top]: Point| Rect { left, top, right: left + width, bottom: top + height };
+    let is_free = |corner: &Point| {
+        let covered = covered(*corner);
+        let is_inside = frame.contains(*corner) && frame.contains([covered.right, covered.bottom]);
+        let is_met = |other: &Rect| {
+            covered.left < other.right
                 && other.left < covered.right
-                && top < other.bottom
+                && covered.top < other.bottom
                 && other.top < covered.bottom
         };
-        let faults = boxes.iter().filter(is_met).count() + usize::from(!inside);
-        hidden + faults * (points.len() + 1)
+        is_inside && !boxes.iter().any(is_met)
     };
-    corners.into_iter().min_by_key(|&corner| cost(corner)).expect("there are four corners")
+    let hidden = |corner: &Point| {
+        let covered = covered(*corner).grown(1.5);
+        points.iter().filter(|&&point| covered.contains(point)).count()
+    };
+    corners.filter(is_free).min_by_key(hidden)
 }
 
 #[cfg(test)]
@@ -242,7 +251,8 @@ mod tests {
     #[test]
     fn a_note_goes_to_the_side_without_data() {
         let falling: Vec<Point> = (0..100).map(|k| [f64::from(k), f64::from(k)]).collect();
-        let [left, top] = beside([50.0, 50.0], [20.0, 8.0], FRAME, &falling, &[]);
+        let [left, top] = beside([50.0, 50.0], [20.0, 8.0], FRAME, &falling, &[]).unwrap();
         assert!(left > 50.0 && top < 50.0);
+        assert_eq!(beside([50.0, 50.0], [20.0, 8.0], FRAME, &[], &[FRAME]), None);
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! A value that is not finite, or not positive on a logarithmic axis, leaves a gap in its line.
 
-use super::axis::{self, Axis, Scale, Tick};
+use super::axis::{self, Axes, Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
@@ -103,27 +103,13 @@ pub struct Span {
     pub label: Label,
 }
 
-/// A dot with a label beside it.
+/// A dot with a label beside it; without the label where there is no room for it.
 #[derive(Clone, Debug)]
 pub struct Note {
     /// Where it stands, (x, y). A note outside the ranges is left out.
     pub at: [f64; 2],
     /// What it says.
     pub label: Label,
-}
-
-/// The two axes laid over a frame.
-#[derive(Clone, Copy)]
-pub(super) struct Axes {
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-}
-
-impl Axes {
-    /// Where a point stands on the page; none for what cannot be drawn.
-    pub(super) fn at(&self, x: f64, y: f64) -> Option<Point> {
-        Some([self.x.at(x)?, self.y.at(y)?])
-    }
 }
 
 impl LinePanel {
@@ -328,7 +314,9 @@ impl LinePanel {
             canvas.circle(at, 2.0, INK, Stroke::solid("#ffffff", 0.5));
             let height = 1.1 * NOTE_SIZE;
             let size = [note.label.width(NOTE_SIZE), height];
-            let [left, top] = legend::beside(at, size, frame, &taken, &boxes);
+            let Some([left, top]) = legend::beside(at, size, frame, &taken, &boxes) else {
+                continue;
+            };
             boxes.push(Rect { left, top, right: left + size[0], bottom: top + height });
             let baseline = top + 0.8 * height;
             canvas.label(&note.label, [left, baseline], NOTE_SIZE, Anchor::Start);

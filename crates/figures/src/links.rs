@@ -17,8 +17,13 @@ const MANY_LINKS: f64 = 30.0;
 const CROWD: usize = 200;
 /// Layers that links of a crowd are dealt to; only those of different layers darken each other.
 const LAYERS: usize = 12;
-/// Opacity of one layer.
+/// Opacity of one layer, at most.
 const LAYER_OPACITY: f64 = 0.3;
+/// Ink of a crowd of links over the area of the network, at most: more of them are fainter, so that
+/// the nodes stand out however many links there are.
+const INK: f64 = 0.35;
+/// Faintest layer that can still be seen.
+const LEAST_OPACITY: f64 = 0.03;
 
 /// A link between two nodes, numbered from 0.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +45,7 @@ pub(super) fn draw(
 ) {
     let widths = widths(links);
     let is_crowd = links.len() > CROWD;
+    let opacity = if is_crowd { crowd_opacity(links, &widths, places) } else { 1.0 };
     let mut paths: BTreeMap<_, Vec<[Point; 2]>> = BTreeMap::new();
     for (k, (link, width)) in links.iter().zip(widths).enumerate() {
         let within = clusters[link.from].filter(|_| clusters[link.from] == clusters[link.to]);
@@ -51,8 +57,22 @@ pub(super) fn draw(
     for ((_, steps, inked_as), ends) in paths {
         let ink = inked_as.map_or(LINK_INK, cluster_fill);
         let stroke = Stroke::solid(ink, f64::from(steps) * WIDTH_STEP);
-        canvas.segments(&ends, stroke, if is_crowd { LAYER_OPACITY } else { 1.0 });
+        canvas.segments(&ends, stroke, opacity);
     }
+}
+
+/// Opacity at which a crowd of links has so much ink, over the area that the nodes span.
+fn crowd_opacity(links: &[Link], widths: &[f64], places: &[Point]) -> f64 {
+    let extent = |c: usize| {
+        let values = places.iter().map(|place| place[c]);
+        values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+    };
+    let ink = |(link, width): (&Link, &f64)| {
+        let [a, b] = [places[link.from], places[link.to]];
+        width * (a[0] - b[0]).hypot(a[1] - b[1])
+    };
+    let covered = links.iter().zip(widths).map(ink).sum::<f64>() / (extent(0) * extent(1));
+    if covered > 0.0 { (INK / covered).clamp(LEAST_OPACITY, LAYER_OPACITY) } else { LAYER_OPACITY }
 }
 
 /// Width of each link: in proportion to its weight, within limits.
@@ -110,6 +130,17 @@ mod tests {
         for ink in [LINK_INK, cluster_fill(0), cluster_fill(1)] {
             assert!(inks.iter().flatten().any(|found| found == ink), "no {ink}");
         }
+    }
+
+    #[test]
+    fn the_more_links_the_fainter_they_are() {
+        let faint = |n: usize| {
+            let clusters: Vec<_> = (0..100).map(|_| None).collect();
+            let opacity = drawn("stroke-opacity", &vec![1.0; n], &clusters)[0].clone().unwrap();
+            opacity.parse::<f64>().unwrap()
+        };
+        let [few, many, most] = [250, 9_000, 900_000].map(faint);
+        assert!(few > many && many > most && most >= LEAST_OPACITY, "{few}, {many}, {most}");
     }
 
     #[test]

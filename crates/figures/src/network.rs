@@ -4,17 +4,24 @@
 use std::ops::Range;
 
 use super::canvas::{Anchor, Canvas, Point, Rect};
+use super::circle::circle;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
 use super::links::{self, Link};
-use super::placement::{Placement, circle, grouped};
+use super::placement::{Placement, grouped};
 use super::stress::{hop_distances, least_stress};
-use super::style::{INK, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on};
+use super::style::{
+    HEADER, INK, LETTER_SIZE, NOTE_SIZE, Stroke, UNCLUSTERED, cluster_fill, ink_on,
+};
+use super::title;
 
 /// Largest radius of a node, and the smallest, at which those of a crowd may overlap.
 const MAX_RADIUS: f64 = 9.5;
 const MIN_RADIUS: f64 = 1.2;
+/// Room between nodes and the edge beside the radius of the largest.
+const MARGIN: f64 = 2.0;
+const MAX_MARGIN: f64 = MAX_RADIUS + MARGIN;
 /// Radius over the distance of close nodes.
 const CLOSENESS: f64 = 0.36;
 /// Largest size of a label inside a node, and the smallest that is still drawn.
@@ -34,6 +41,8 @@ const LEGEND_SHARE: f64 = 0.3;
 /// Nodes and links.
 #[derive(Clone, Debug, Default)]
 pub struct NetworkPanel {
+    /// Stands above the network, such as the range of ε in which its clusters hold; may be empty.
+    pub title: Label,
     /// The nodes, at least one.
     pub nodes: Vec<Node>,
     /// The links, each once.
@@ -69,26 +78,28 @@ impl NetworkPanel {
             n_rows => 1.7 * NOTE_SIZE + (n_rows - 1) as f64 * LEGEND_ROW,
         };
         let legend_height = legend_height + if n_more > 0 { LEGEND_ROW } else { 0.0 };
-        let room = Rect { bottom: cell.bottom - legend_height, ..cell }.grown(-MAX_RADIUS - 2.0);
-        let (width, height) = (room.width(), room.height());
+        let header = if self.title.is_empty() { 0.0 } else { HEADER };
+        let room = Rect { top: cell.top + header, bottom: cell.bottom - legend_height, ..cell };
+        let [width, height] = [room.width(), room.height()].map(|side| side - 2.0 * MAX_MARGIN);
         if width < 20.0 || height < 20.0 {
             return Err(FigureError::TooSmall { panel: panel.into(), width, height });
         }
         let given = self.places(panel)?;
-        let mut places = fitted(&given, room);
+        let mut places = spread_over(&given, room);
         // The letter of the panel stands in the corner.
         let [right, bottom] =
             [cell.left + Label::text(panel).width(LETTER_SIZE), cell.top + LETTER_SIZE];
         let letter = Rect { right, bottom, ..cell }.grown(radius(&places));
         if places.iter().any(|&place| letter.contains(place)) {
-            places = fitted(&given, Rect { top: room.top + LETTER_SIZE, ..room });
+            places = spread_over(&given, Rect { top: room.top + LETTER_SIZE, ..room });
         }
         let clusters: Vec<_> = self.nodes.iter().map(|n| n.cluster).collect();
         links::draw(canvas, &self.links, &places, &clusters);
         self.draw_nodes(canvas, &places);
+        let middle = (cell.left + cell.right) / 2.0;
+        title::draw(canvas, &self.title, middle, (cell, cell.right), panel);
         let mut cell = cell;
         if n_more > 0 {
-            let middle = (cell.left + cell.right) / 2.0;
             let at = [middle, cell.bottom - 0.7 * NOTE_SIZE + CAP_HEIGHT * NOTE_SIZE / 2.0];
             canvas.label(&Label::text(format!("and {n_more} more")), at, NOTE_SIZE, Anchor::Middle);
             cell.bottom -= LEGEND_ROW;
@@ -143,10 +154,15 @@ impl NetworkPanel {
         let labels: Vec<Label> = self.nodes.iter().map(|n| Label::text(n.label.as_str())).collect();
         let widest = labels.iter().map(|l| l.width(1.0)).fold(0.0, f64::max);
         let size = MAX_LABEL.min(1.65 * radius / widest).min(1.4 * radius);
+        // Of nodes that stand over one another the first is named.
+        let mut named: Vec<Point> = Vec::new();
         for ((node, label), &[x, y]) in self.nodes.iter().zip(&labels).zip(places) {
             let fill = node.cluster.map_or(UNCLUSTERED, cluster_fill);
             canvas.circle([x, y], radius, fill, Stroke::solid(INK, (0.08 * radius).min(0.6)));
-            if size >= MIN_LABEL {
+            let is_clear =
+                |other: &Point| (x - other[0]).abs() > widest * size || (y - other[1]).abs() > size;
+            if size >= MIN_LABEL && named.iter().all(is_clear) {
+                named.push([x, y]);
                 let at = [x, y + CAP_HEIGHT * size / 2.0];
                 canvas.label_in(label, at, size, ink_on(fill));
             }
@@ -200,6 +216,13 @@ impl NetworkPanel {
         let mut fitting = tried.skip_while(|r| r.len() < n && r.iter().any(|r| r.width > room));
         fitting.next().unwrap_or_default()
     }
+}
+
+/// Places that fill a rectangle, so that nodes of the radius they have there are whole.
+fn spread_over(places: &[Point], room: Rect) -> Vec<Point> {
+    let largest = fitted(places, room.grown(-MARGIN));
+    let margin = radius(&largest) + MARGIN;
+    fitted(places, room.grown(-margin))
 }
 
 /// Radius of nodes at these places.
@@ -300,7 +323,7 @@ mod tests {
         };
         // From the upper left to the lower right corner, and the other way round.
         let (under, clear) = ([[0.0, 1.0], [1.0, 0.0]], [[1.0, 1.0], [0.0, 0.0]]);
-        assert!((positions(clear) - MAX_RADIUS - 2.0).abs() < 0.1, "{}", positions(clear));
+        assert!((positions(clear) - MAX_MARGIN).abs() < 0.1, "{}", positions(clear));
         assert!(positions(under) - MAX_RADIUS > LETTER_SIZE, "{}", positions(under));
     }
 

@@ -1,8 +1,7 @@
 //! Places of a network's nodes: on one circle, by least stress, on one circle a cluster, or given.
 //! All are deterministic.
 
-use std::f64::consts::{PI, TAU};
-
+use super::circle::{circle, ring_radius};
 use super::stress::{hop_distances, least_stress};
 
 /// Distance between the circles of linked clusters, over that of neighbours on one circle.
@@ -21,12 +20,6 @@ pub enum Placement {
     Grouped,
     /// Given positions (x to the right, y up, any unit), one a node.
     At(Vec<[f64; 2]>),
-}
-
-/// Positions on a unit circle, y down, clockwise from the left.
-pub(super) fn circle(n_nodes: usize) -> Vec<[f64; 2]> {
-    let angle = |i: usize| TAU * i as f64 / n_nodes as f64;
-    (0..n_nodes).map(|i| [-angle(i).cos(), -angle(i).sin()]).collect()
 }
 
 /// Positions with every cluster on a circle of its own, neighbours on it at unit distance.
@@ -78,24 +71,12 @@ fn groups(clusters: &[Option<usize>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// Radius at which n nodes on a circle have unit distance from their neighbours.
-fn ring_radius(n_nodes: usize) -> f64 {
-    if n_nodes < 2 { 0.0 } else { 0.5 / (PI / n_nodes as f64).sin() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn length(a: [f64; 2], b: [f64; 2]) -> f64 {
         (a[0] - b[0]).hypot(a[1] - b[1])
-    }
-
-    #[test]
-    fn node_one_of_six_faces_node_four() {
-        let places = circle(6);
-        assert!(length(places[0], [-1.0, 0.0]) < 1e-12 && length(places[3], [1.0, 0.0]) < 1e-12);
-        assert!(places[1][1] < 0.0, "clockwise on a page with y down: node 2 is above");
     }
 
     #[test]

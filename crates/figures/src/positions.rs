@@ -10,9 +10,8 @@ use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
-use super::style::{
-    HEADER, LABEL_SIZE, MARKER_INK, NOTE_SIZE, TICK_SIZE, UNCLUSTERED, cluster_fill,
-};
+use super::style::{HEADER, MARKER_INK, TICK_SIZE, UNCLUSTERED, cluster_fill};
+use super::title;
 
 const X: usize = 0;
 const Y: usize = 1;
@@ -87,11 +86,10 @@ impl PositionsPanel {
         for view in &VIEWS {
             self.draw_view(canvas, view, &layout);
         }
-        let baseline = cell.top + CAP_HEIGHT * LABEL_SIZE + 1.0;
-        let title_at = [(cell.left + cell.right) / 2.0, baseline];
-        canvas.label(&self.title, title_at, NOTE_SIZE, Anchor::Middle);
+        let middle = (cell.left + cell.right) / 2.0;
+        title::draw(canvas, &self.title, middle, (cell, cell.right), panel);
         let right_column = layout.columns[1] - layout.size[Y] / 2.0;
-        self.draw_legend(canvas, [right_column, layout.rows[1]]);
+        self.draw_legend(canvas, [right_column, layout.rows[1]], layout.size[Y]);
         Ok(())
     }
 
@@ -173,11 +171,16 @@ impl PositionsPanel {
             }
         }
         let below = [x, y + layout.size[view.up] / 2.0 + NAME_DROP];
-        canvas.label_in(&Label::text(view.name), below, TICK_SIZE, MARKER_INK);
+        let name = Label::text(view.name);
+        // Beside another view a name has the width of its own.
+        if name.width(TICK_SIZE) <= layout.size[view.across] + GAP {
+            canvas.label_in(&name, below, TICK_SIZE, MARKER_INK);
+        }
     }
 
-    /// How many clusters there are, and how many nodes are in one.
-    fn draw_legend(&self, canvas: &mut Canvas, [left, middle]: Point) {
+    /// How many nodes are in clusters, then a key: each cluster with its name, as many as there is
+    /// room for, and the grey nodes.
+    fn draw_legend(&self, canvas: &mut Canvas, [left, middle]: Point, height: f64) {
         if self.grey_label.is_empty() {
             return;
         }
@@ -186,18 +189,33 @@ impl PositionsPanel {
         numbers.sort_unstable();
         numbers.dedup();
         let plural = if numbers.len() == 1 { "" } else { "s" };
-        let lines = [
-            Label::text(format!("{} cluster{plural}", numbers.len())),
-            Label::text(format!("{n_clustered} of {n_nodes} nodes")),
-        ];
         let line_height = 1.35 * TICK_SIZE;
-        let mut baseline = middle - line_height / 2.0 + CAP_HEIGHT * TICK_SIZE / 2.0;
-        for line in lines {
-            canvas.label(&line, [left, baseline], TICK_SIZE, Anchor::Start);
+        let most = ((height / line_height) as usize).saturating_sub(3);
+        let n_named = if numbers.len() > most { most.saturating_sub(1) } else { numbers.len() };
+        let mut lines = vec![
+            (None, Label::text(format!("{} cluster{plural}", numbers.len()))),
+            (None, Label::text(format!("{n_clustered} of {n_nodes} nodes"))),
+        ];
+        lines.extend(numbers[..n_named].iter().map(|&number| {
+            let n_nodes = self.clusters.iter().filter(|&&of| of == Some(number)).count();
+            let name = Label::math("C").subscript(&(number + 1).to_string());
+            (Some(cluster_fill(number)), name.with_text(format!(": {n_nodes} nodes")))
+        }));
+        if n_named < numbers.len() {
+            lines.push((None, Label::text(format!("and {} more", numbers.len() - n_named))));
+        }
+        lines.push((Some(UNCLUSTERED), self.grey_label.clone()));
+        let above = (lines.len() - 1) as f64 / 2.0 * line_height;
+        let mut baseline = middle - above + CAP_HEIGHT * TICK_SIZE / 2.0;
+        for (fill, line) in lines {
+            let mut start = left;
+            if let Some(fill) = fill {
+                canvas.dots(&[[left + 2.5, baseline - CAP_HEIGHT * TICK_SIZE / 2.0]], 2.5, fill);
+                start += 8.0;
+            }
+            canvas.label(&line, [start, baseline], TICK_SIZE, Anchor::Start);
             baseline += line_height;
         }
-        canvas.dots(&[[left + 2.5, baseline - CAP_HEIGHT * TICK_SIZE / 2.0]], 2.5, UNCLUSTERED);
-        canvas.label(&self.grey_label, [left + 8.0, baseline], TICK_SIZE, Anchor::Start);
     }
 }
 

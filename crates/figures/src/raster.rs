@@ -1,12 +1,10 @@
 //! From SVG to PNG, with the bundled faces only: the same pixels on machines without any fonts.
 
-use std::sync::Arc;
-
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb};
+use resvg::usvg::Tree;
 
 use super::error::FigureError;
-use super::font::Face;
+use super::reader::options;
 
 /// Draws an SVG of ours at a resolution in dots per inch, as the bytes of an opaque PNG that
 /// states its resolution.
@@ -24,14 +22,6 @@ pub fn png(svg: &str, dots_per_inch: f64) -> Result<Vec<u8>, FigureError> {
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(factor, factor), &mut pixels.as_mut());
     encode(&pixels, dots_per_inch)
-}
-
-fn options() -> Options<'static> {
-    let mut options = Options::default();
-    for face in [Face::Regular, Face::Italic] {
-        options.fontdb_mut().load_font_source(fontdb::Source::Binary(Arc::new(face.bytes())));
-    }
-    options
 }
 
 fn encode(pixels: &Pixmap, dots_per_inch: f64) -> Result<Vec<u8>, FigureError> {

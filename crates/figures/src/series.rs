@@ -1,11 +1,10 @@
 //! One curve of a line panel: points in order, joined by lines, with marks and spread.
 
-use super::axis::Scale;
+use super::axis::{Axes, Scale};
 use super::canvas::{Canvas, Point, Rect};
 use super::error::FigureError;
 use super::label::Label;
-use super::lines::Axes;
-use super::style::{LINK_INK, Shape, Stroke, series_style};
+use super::style::{LINK_INK, Shape, Stroke, cluster_fill, series_style};
 
 /// Marks on a curve, counted over its whole length, where it has more points than this.
 const MARKS: usize = 12;
@@ -23,8 +22,10 @@ const CAP: f64 = 1.5;
 pub struct Series {
     /// Its entry in the legend; an empty label for none.
     pub label: Label,
-    /// Number of its colour, dashes and mark. Cluster `style` of a network has the same colour.
+    /// Number of its dashes and mark, and of its colour where that has none of its own.
     pub style: usize,
+    /// Number of the cluster that it belongs to, whose colour it has.
+    pub cluster: Option<usize>,
     /// Whether it is one of many that nobody could tell apart: thin, grey and without marks.
     pub muted: bool,
     /// Values of x, in the order in which they are joined.
@@ -62,8 +63,15 @@ impl Series {
         if self.muted {
             return (Stroke::solid(LINK_INK, MUTED_WIDTH), None);
         }
-        let (stroke, shape) = series_style(self.style);
+        let (stroke, shape) = self.style();
         (stroke, Some(shape))
+    }
+
+    /// The line and the mark of a series that can be told apart.
+    fn style(&self) -> (Stroke, Shape) {
+        let (stroke, shape) = series_style(self.style);
+        let colour = self.cluster.map_or(stroke.colour, cluster_fill);
+        (Stroke { colour, ..stroke }, shape)
     }
 
     /// Every y that is to be seen.
@@ -137,7 +145,7 @@ pub(super) fn draw(canvas: &mut Canvas, series: &[Series], axes: Axes) {
 /// Draws every point within the frame as a mark, none joined to the next.
 pub(super) fn draw_marks_only(canvas: &mut Canvas, series: &[Series], axes: Axes, frame: Rect) {
     for s in series {
-        let (stroke, shape) = series_style(s.style);
+        let (stroke, shape) = s.style();
         let mut points = points(s, axes);
         points.retain(|&point| frame.contains(point));
         let radius = MARK_RADIUS * (CROWD / points.len() as f64).cbrt().clamp(0.4, 1.0);
@@ -174,7 +182,7 @@ fn densely(stretch: &[(usize, Point)]) -> Vec<Point> {
 
 fn draw_spread(canvas: &mut Canvas, series: &Series, axes: Axes) {
     let Some(spread) = &series.spread else { return };
-    let (stroke, _) = series_style(series.style);
+    let (stroke, _) = series.style();
     let ends = |k: usize| {
         let x = series.x[k];
         axes.at(x, spread.lower[k]).zip(axes.at(x, spread.upper[k]))
@@ -207,7 +215,7 @@ fn draw_spread(canvas: &mut Canvas, series: &Series, axes: Axes) {
 /// distance so that the marks of coinciding curves stand side by side, or none without a phase. A
 /// point without neighbours always has its mark, since no line shows it.
 fn draw_marks(canvas: &mut Canvas, series: &Series, axes: Axes, phase: Option<f64>) {
-    let (stroke, shape) = series_style(series.style);
+    let (stroke, shape) = series.style();
     let is_short = series.x.len() <= 2 * MARKS;
     let every = if is_short { 1 } else { series.x.len().div_ceil(MARKS) };
     let first = phase.map(|p| (p * every as f64) as usize).or(is_short.then_some(0));

@@ -9,10 +9,13 @@
 
 use std::collections::VecDeque;
 
-use super::placement::circle;
+use super::circle::circle;
 
 /// Sweeps over all nodes at most; small networks settle in a few dozen.
 const MAX_SWEEPS: usize = 500;
+/// Pairs of nodes looked at in all sweeps together, at most: a second of work. The first sweeps of a
+/// large network do what can be seen.
+const MAX_PAIRS: usize = 100_000_000;
 /// Relative fall of the stress in one sweep below which it has settled.
 const SETTLED: f64 = 1e-6;
 /// Power iterations for the start, which needs no accuracy.
@@ -29,7 +32,7 @@ pub(super) fn least_stress(distances: &[Vec<f64>]) -> Vec<[f64; 2]> {
         *place = [place[0] + CIRCLE_SHARE * x, place[1] + CIRCLE_SHARE * y];
     }
     let mut before = stress(&places, distances);
-    for _ in 0..MAX_SWEEPS {
+    for _ in 0..n_sweeps(n_nodes) {
         for i in 0..n_nodes {
             places[i] = majorised(i, &places, &distances[i]);
         }
@@ -40,6 +43,10 @@ pub(super) fn least_stress(distances: &[Vec<f64>]) -> Vec<[f64; 2]> {
         before = now;
     }
     turned(&places)
+}
+
+fn n_sweeps(n_nodes: usize) -> usize {
+    (MAX_PAIRS / n_nodes.pow(2).max(1)).clamp(1, MAX_SWEEPS)
 }
 
 /// The two leading components of −½ J D² J, D² the squared distances and J = 1 − 1/N, by
@@ -85,9 +92,9 @@ fn majorised(i: usize, places: &[[f64; 2]], distances: &[f64]) -> [f64; 2] {
             continue;
         }
         let (dx, dy) = (x - to_x, y - to_y);
-        let length = dx.hypot(dy);
+        let length = (dx * dx + dy * dy).sqrt();
         let stretch = if length > 0.0 { distance / length } else { 0.0 };
-        let weight = distance.powi(-2);
+        let weight = 1.0 / (distance * distance);
         sum[0] += weight * (to_x + stretch * dx);
         sum[1] += weight * (to_y + stretch * dy);
         weights += weight;
@@ -100,7 +107,7 @@ fn stress(places: &[[f64; 2]], distances: &[Vec<f64>]) -> f64 {
     pairs
         .map(|(i, j)| {
             let [dx, dy] = [places[i][0] - places[j][0], places[i][1] - places[j][1]];
-            (dx.hypot(dy) / distances[i][j] - 1.0).powi(2)
+            ((dx * dx + dy * dy).sqrt() / distances[i][j] - 1.0).powi(2)
         })
         .sum()
 }
@@ -184,6 +191,12 @@ mod tests {
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             assert!((length(places[i], places[j]) - 1.0).abs() < 1e-3);
         }
+    }
+
+    #[test]
+    fn the_work_for_a_large_network_is_bounded() {
+        assert_eq!([n_sweeps(1), n_sweeps(300), n_sweeps(1000)], [500, 500, 100]);
+        assert_eq!(n_sweeps(1_000_000), 1);
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! Sizes, strokes and colours shared by every panel. Lengths are points of 1/72 inch.
 //!
-//! The first seven colours: M. Okabe and K. Ito, "Color Universal Design" (2008), chosen to be told
+//! The first six colours: M. Okabe and K. Ito, "Color Universal Design" (2008), chosen to be told
 //! apart with every common form of colour vision; lines differ in dashes and marks as well, for
 //! grey prints. Those that follow, for clusters only, were found as C. Glasbey et al. do (Color
 //! Res. Appl. 32, 304 (2007)): each is the colour farthest from all before it, from white and from
 //! the grey of unclustered nodes, here in B. Ottosson's Oklab space, garish ones left out.
+
+use std::sync::LazyLock;
 
 /// Thin lines: frames and ticks.
 pub(super) const AXIS_WIDTH: f64 = 0.6;
@@ -34,15 +36,18 @@ pub(super) const YELLOW_SHADE: &str = "#fbf3d0";
 /// Nodes that belong to no cluster, and cells without a value.
 pub(super) const UNCLUSTERED: &str = "#d3d3d3";
 
-/// Colours that lines share with clusters.
-const N_LINE_COLOURS: usize = 7;
+/// Colours of clusters, and of the lines that belong to them. Black, the seventh of Okabe and Ito, is
+/// not among them: it would be heavy over an area, and it is the ink of all text.
 #[rustfmt::skip]
-const PALETTE: [&str; 30] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#69001e",
-    "#004b00", "#2d1e87", "#962d96", "#3cf096", "#785a3c", "#f0e100", "#ffa5ff", "#8778f0",
+const PALETTE: [&str; 29] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#69001e", "#004b00",
+    "#2d1e87", "#962d96", "#3cf096", "#785a3c", "#f0e100", "#ffa5ff", "#8778f0",
     "#b41e3c", "#87b400", "#2df0ff", "#007800", "#3c4b69", "#96872d", "#876996", "#690069",
     "#5a3cb4", "#ff9696", "#4bc3a5", "#b4a5ff", "#1e7869", "#5a3c00",
 ];
+/// Rounds of the palette that differ, and the share of its colours in each beside the one before.
+const N_TINTS: i32 = 3;
+const TINT_STRENGTH: f64 = 0.75;
 const DASHES: [&str; 4] = ["", "6 2", "6 1.5 1.2 1.5", "2 1.2"];
 const SHAPES: [Shape; 6] = [
     Shape::Circle,
@@ -103,14 +108,27 @@ impl Shape {
 
 /// How series `number` is drawn: its line and the marks on it.
 pub(super) fn series_style(number: usize) -> (Stroke, Shape) {
-    let colour = PALETTE[number % N_LINE_COLOURS];
+    let colour = cluster_fill(number);
     let dash = DASHES[number % DASHES.len()];
     (Stroke { colour, width: SERIES_WIDTH, dash }, SHAPES[number % SHAPES.len()])
 }
 
-/// Fill of the nodes of cluster `number`; after 30 clusters the palette begins anew.
+/// The colour of cluster `number` in every panel; after those of the palette it begins anew, in
+/// lighter tints.
 pub(super) fn cluster_fill(number: usize) -> &'static str {
-    PALETTE[number % PALETTE.len()]
+    static FILLS: LazyLock<Vec<String>> = LazyLock::new(|| {
+        let tint = |tint: i32| {
+            move |colour: &&str| mixed_with_white(colour, 1.0 - TINT_STRENGTH.powi(tint))
+        };
+        (0..N_TINTS).flat_map(|k| PALETTE.iter().map(tint(k)).collect::<Vec<_>>()).collect()
+    });
+    &FILLS[number % FILLS.len()]
+}
+
+/// A colour with this share of white in it.
+pub(super) fn mixed_with_white(colour: &str, white: f64) -> String {
+    let [r, g, b] = channels(colour).map(|c| (c + white * (255.0 - c)).round() as u32);
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Black or white, whichever reads better on `fill` (relative luminance of WCAG 2, without its
@@ -146,22 +164,23 @@ mod tests {
     }
 
     #[test]
-    fn thirty_clusters_the_page_and_unclustered_nodes_look_different() {
+    fn clusters_the_page_and_unclustered_nodes_look_different() {
         // Black and white are 1 apart in Oklab; the tenth of that is seen at a glance.
-        let mut shown: Vec<_> = (0..30).map(|k| oklab(cluster_fill(k))).collect();
+        let mut shown: Vec<_> = (0..29).map(|k| oklab(cluster_fill(k))).collect();
         shown.extend([oklab("#ffffff"), oklab(UNCLUSTERED)]);
-        for (k, a) in shown.iter().enumerate().take(30) {
+        for (k, a) in shown.iter().enumerate().take(29) {
             for b in &shown[k + 1..] {
                 let distance = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
                 assert!(distance > 0.11, "cluster {k}: {distance}");
             }
         }
-        assert_eq!(cluster_fill(30), cluster_fill(0));
+        let fills: HashSet<_> = (0..87).map(cluster_fill).collect();
+        assert_eq!(fills.len(), 87, "the palette begins anew in tints");
     }
 
     #[test]
     fn lines_have_the_colours_of_the_clusters_of_their_numbers() {
-        for k in 0..N_LINE_COLOURS {
+        for k in 0..100 {
             assert_eq!(series_style(k).0.colour, cluster_fill(k));
         }
     }

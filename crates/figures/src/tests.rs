@@ -1,7 +1,8 @@
 //! The figure as a whole: what a reader of the SVG and of the PNG finds in it.
 
 use super::*;
-use resvg::usvg::roxmltree::Document;
+use crate::font::{CAP_HEIGHT, Face, text_width};
+use resvg::usvg::roxmltree::{Document, Node as Element};
 
 fn curve(name: &str, style: usize, y: impl Fn(f64) -> f64) -> Series {
     let x: Vec<f64> = (0..=40).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
@@ -58,7 +59,7 @@ fn count(svg: &str, tag: &str) -> usize {
     Document::parse(svg).unwrap().descendants().filter(|n| n.has_tag_name(tag)).count()
 }
 
-fn texts(svg: &str) -> Vec<String> {
+pub(super) fn texts(svg: &str) -> Vec<String> {
     let document = Document::parse(svg).unwrap();
     let labels = document.descendants().filter(|n| n.has_tag_name("text"));
     labels
@@ -221,4 +222,189 @@ fn lines_stand_between_groups_only() {
     assert_eq!(drawn(&[[0, 9]]), none);
     assert_eq!(drawn(&[[0, 3], [3, 9]]), none + 1);
     assert_eq!(drawn(&[[0, 3], [5, 9]]), none + 2);
+}
+
+/// A network of Barabási and Albert's, three links a new node.
+fn scale_free(n_nodes: usize) -> NetworkPanel {
+    let mut state = 1_u64;
+    let mut below = |n: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % n
+    };
+    let mut ends = vec![0, 1, 2];
+    let mut links = Vec::new();
+    for node in 3..n_nodes {
+        for _ in 0..3 {
+            let to = ends[below(ends.len())];
+            if to != node {
+                links.push(Link { from: node, to, weight: 1.0 });
+                ends.extend([node, to]);
+            }
+        }
+    }
+    let nodes = (0..n_nodes).map(|k| Node { label: k.to_string(), cluster: None }).collect();
+    NetworkPanel { nodes, links, placement: Placement::Stress, ..NetworkPanel::default() }
+}
+
+#[test]
+fn a_thousand_nodes_and_two_thousand_states_are_drawn_in_seconds() {
+    let states = (0..2000).map(|state: usize| {
+        let n_clusters = 1 + state / 8;
+        let cluster = |k: usize| CascadeCluster {
+            n_nodes: 1000 / n_clusters,
+            parent: (state > 0).then(|| k.min((state - 1) / 8)),
+            label: Label::math("C").subscript(&k.to_string()),
+            colour: k,
+        };
+        CascadeState {
+            epsilon: (2000.0 - state as f64, (state > 0).then_some(2001.0 - state as f64)),
+            clusters: (0..n_clusters)
+                .map(cluster)
+                .map(|c| CascadeCluster { parent: None, ..c })
+                .collect(),
+        }
+    });
+    let cascade = CascadePanel { n_nodes: 1000, states: states.collect(), shown: Some(700) };
+    let started = std::time::Instant::now();
+    let svg = figure(vec![
+        ("(a)", Content::Network(scale_free(1000))),
+        ("(b)", Content::Cascade(cascade)),
+    ])
+    .svg()
+    .unwrap();
+    let drawn = started.elapsed();
+    png(&svg, 300.0).unwrap();
+    let all = started.elapsed();
+    println!("drawn in {drawn:?}, with its PNG in {all:?}");
+    // Fifteen seconds before, and half of five now, but tests run many at once.
+    assert!(all.as_secs_f64() < 10.0, "{all:?}");
+    assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
+}
+
+#[test]
+fn a_panel_alone_has_the_size_it_has_in_the_whole() {
+    let whole = with_lines(errors_panel());
+    let alone = whole.only(&["a2".into()]).unwrap();
+    assert_eq!((alone.panels.len(), alone.columns.len()), (1, 1));
+    assert_eq!(alone.panels[0].columns, 0..1);
+    assert!((alone.height_mm - whole.height_mm).abs() < 1e-9);
+    let width_pt = (170.0 * 72.0 / 25.4 - 8.0 - 4.0) / 2.0 + 4.0;
+    assert!((alone.width_mm * 72.0 / 25.4 - width_pt).abs() < 1e-9, "{} mm", alone.width_mm);
+    let texts = texts(&alone.svg().unwrap());
+    assert!(texts.iter().any(|t| t == "(a2)") && !texts.iter().any(|t| t == "(a1)"));
+    assert!(whole.only(&["b".into()]).is_none());
+}
+
+/// What every label covers, baseline to the height of a capital, as [left, top, right, bottom].
+pub(super) fn boxes(svg: &str) -> Vec<(String, [f64; 4])> {
+    let document = Document::parse(svg).unwrap();
+    let number =
+        |node: &Element<'_, '_>, name| node.attribute(name).map(|v| v.parse::<f64>().unwrap());
+    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
+    let covered = |label: Element<'_, '_>| {
+        let (mut width, mut size, mut text) = (0.0, 0.0_f64, String::new());
+        for piece in label.children().filter(|node| node.has_tag_name("tspan")) {
+            let is_italic = piece.attribute("font-style").is_some();
+            let face = if is_italic { Face::Italic } else { Face::Regular };
+            let piece_size = number(&piece, "font-size").unwrap();
+            size = size.max(piece_size);
+            width += text_width(piece.text().unwrap(), face, piece_size);
+            width += number(&piece, "dx").unwrap_or(0.0);
+            text += piece.text().unwrap();
+        }
+        let [x, y] = ["x", "y"].map(|name| number(&label, name).unwrap());
+        let left = match label.attribute("text-anchor").unwrap() {
+            "start" => 0.0,
+            "middle" => width / 2.0,
+            _ => width,
+        };
+        let high = CAP_HEIGHT * size;
+        let covered = match label.attribute("transform") {
+            // Turned about its middle: "rotate(-90 x y)".
+            Some(turned) => {
+                let middle = turned.trim_end_matches(')').split(' ').skip(1);
+                let middle: Vec<f64> = middle.map(|c| c.parse().unwrap()).collect();
+                let [from, to] = [-0.5, 0.5].map(|share| middle[1] + share * width);
+                [middle[0] - high, from, middle[0], to]
+            }
+            None => [x - left, y - high, x - left + width, y],
+        };
+        (text, covered)
+    };
+    labels.map(covered).collect()
+}
+
+/// Asserts that no label covers a part of another, nor leaves the page.
+fn assert_clear(figure: &Figure) {
+    let labels = boxes(&figure.svg().unwrap());
+    let [width, height] = [figure.width_mm, figure.height_mm].map(|mm| mm * 72.0 / 25.4);
+    for (k, (text, a)) in labels.iter().enumerate() {
+        let is_inside = a[0] >= 0.0 && a[1] >= 0.0 && a[2] <= width && a[3] <= height;
+        assert!(is_inside, "{text} at {a:?} leaves the page");
+        for (other, b) in &labels[k + 1..] {
+            let is_clear = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+            assert!(is_clear, "{text} at {a:?} and {other} at {b:?}");
+        }
+    }
+}
+
+#[test]
+fn labels_never_overprint_in_any_panel() {
+    let msf = |zeros: &[f64]| {
+        msf_panel(&MsfCurve {
+            sigma: vec![0.0, 1.0, 2.0],
+            lambda: vec![0.1, -0.1, 0.1],
+            standard_error: vec![0.01; 3],
+            stable: vec![(0.5, Some(1.5))],
+            zeros: zeros.iter().map(|&zero| (zero, format!("{zero}"))).collect(),
+        })
+    };
+    let mut crowded = errors_panel();
+    crowded.markers[0].markers = (0..40)
+        .map(|k| Marker {
+            x: 3.0 + 0.01 * f64::from(k),
+            label: Some(Label::math("ε").subscript(&k.to_string()).superscript("max")),
+        })
+        .collect();
+    let mut network = network_panel();
+    network.title = Label::text("a title that is nearly too long");
+    network.cluster_labels = (1..30).map(|m| Label::text(format!("a group {m}"))).collect();
+    network.placement =
+        Placement::At((0..6).map(|k| [f64::from(k / 3), 0.1 * f64::from(k % 3)]).collect());
+    network.nodes.iter_mut().for_each(|node| node.label = "long".into());
+    let groups = (0..9).map(|g| Group { label: Label::text(format!("gr {g}")), nodes: g..g + 1 });
+    let matrix = HeatMapPanel {
+        title: Label::math("r").with_text(" = 0.91, 2 of 16 runs came to no end"),
+        n_nodes: 9,
+        values: (0..81).map(f64::from).collect(),
+        bar_label: Label::math("δx").subscript("ij"),
+        groups: groups.collect(),
+        ..HeatMapPanel::default()
+    };
+    let positions = PositionsPanel {
+        title: Label::math("ε").with_text(" = 15.125, predicted"),
+        positions: (0..90).map(|k| [f64::from(k % 9), f64::from(k % 7), f64::from(k)]).collect(),
+        clusters: (0..90).map(|k| (k > 9).then_some(k % 25)).collect(),
+        grey_label: Label::text("not synchronisable"),
+    };
+    for width_mm in [90.0, 130.0, 170.0] {
+        let contents = vec![
+            vec![("(a)", Content::Lines(msf(&[0.5, 0.52, 0.54, 0.56, 0.58, 1.5])))],
+            vec![
+                ("(a)", Content::Lines(crowded.clone())),
+                ("(b)", Content::Lines(msf(&[0.5, 1.5]))),
+            ],
+            vec![
+                ("(a1)", Content::Network(network.clone())),
+                ("(a2)", Content::HeatMap(matrix.clone())),
+            ],
+            vec![
+                ("(b1)", Content::HeatMap(matrix.clone())),
+                ("(c1)", Content::Positions(positions.clone())),
+            ],
+        ];
+        for contents in contents {
+            assert_clear(&Figure { width_mm, ..figure(contents) });
+        }
+    }
 }

@@ -3,8 +3,12 @@
 //! `drawing/pairs` has the other kinds.
 
 mod cascade;
+mod identity;
+mod marks;
+mod order;
 mod pairs;
 mod picture;
+mod regions;
 mod room;
 
 pub use pairs::{distance, error_matrix};
@@ -18,10 +22,10 @@ use crate::spec::{ErrorScale, FigureKind, Layout, SpreadKind};
 use eigensync::numbers::three_digits;
 use eigensync::{Findings, OverSeeds, Simulated, Sweep};
 use figures::{
-    Content, Figure, Label, LinePanel, Link, Marker, MarkerGroup, MarkerStyle, MsfCurve,
-    NetworkPanel, Node, Panel, Placement, Scale, Series, Shade, Spread, SpreadStyle, Tone,
-    msf_panel,
+    Content, Figure, Label, LinePanel, Link, MsfCurve, NetworkPanel, Node, Panel, Placement, Scale,
+    Series, Shade, Spread, SpreadStyle, Tone, msf_panel,
 };
+use identity::Identities;
 
 /// Resolution of the PNG: what journals ask for.
 const DOTS_PER_INCH: f64 = 300.0;
@@ -33,7 +37,7 @@ const DRAWN_NODES: usize = 1000;
 fn figure(plan: &Plan, findings: &Findings) -> Figure {
     match (plan.figure_kind(), &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
-        (FigureKind::Regions, Some(simulated)) => pairs::regions(plan, findings, simulated),
+        (FigureKind::Regions, Some(simulated)) => regions::regions(plan, findings, simulated),
         _ => sweep(plan, findings),
     }
 }
@@ -62,30 +66,37 @@ pub fn curve_alone(
 
 /// The network above Λ(σ) at the left; at the right the sweep or, without one, the predicted states.
 fn sweep(plan: &Plan, findings: &Findings) -> Figure {
-    let letter = |number: usize| format!("({}{number})", plan.figure().letter);
-    let left = |row: usize, number: usize, content: Content| Panel {
+    let letter = |number: u8| match &plan.figure().letter {
+        Some(letter) => format!("({letter}{number})"),
+        None => format!("({})", char::from(b'a' + number - 1)),
+    };
+    let left = |row: usize, number: u8, content: Content| Panel {
         letter: letter(number),
         rows: row..row + 1,
         columns: 0..1,
         content,
     };
-    let mut panels = vec![left(0, 1, network_or_spectrum(plan, findings))];
+    let mut identities = Identities::of(plan, findings);
+    let network = network_or_spectrum(plan, findings, &mut identities);
+    let mut panels = vec![left(0, 1, network)];
     let lines = match (&plan.study.sweep, &findings.simulated) {
-        (Some(sweep), Some(simulated)) => Some(errors(plan, sweep, simulated, findings)),
+        (Some(sweep), Some(simulated)) => {
+            Some(errors(plan, sweep, simulated, findings, &identities))
+        }
         _ => None,
     };
     let content = match lines {
         Some(lines) if !lines.series.is_empty() => Some(Content::Lines(lines)),
         // Without a sweep, or where no errors were asked for, or every run escaped.
         _ if findings.cascade.is_empty() => None,
-        _ => Some(Content::Cascade(cascade::panel(plan, findings))),
+        _ => Some(Content::Cascade(cascade::panel(plan, findings, &identities))),
     };
     let mut columns = vec![1.0];
     if let Some(content) = content {
         panels.push(Panel { letter: letter(2), rows: 0..2, columns: 1..2, content });
         columns.push(1.7);
     }
-    panels.push(left(1, panels.len() + 1, Content::Lines(msf(&findings.msf))));
+    panels.push(left(1, columns.len() as u8 + 1, Content::Lines(msf(&findings.msf))));
     Figure {
         title: plan.experiment.title.clone(),
         width_mm: if columns.len() > 1 { 170.0 } else { 75.0 },
@@ -96,12 +107,45 @@ fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     }
 }
 
-/// The network coloured by clusters or, where it is too large to be seen, its leading eigenvalues.
-fn network_or_spectrum(plan: &Plan, findings: &Findings) -> Content {
+/// The network coloured by clusters or, where it is too large to be seen, its leading eigenvalues. The
+/// clusters are those of the experiment, else those of the predicted state that has the most.
+fn network_or_spectrum(plan: &Plan, findings: &Findings, identities: &mut Identities) -> Content {
+    let own = plan.study.sweep.as_ref().map_or(&[][..], |sweep| &sweep.observables.clusters);
     if plan.study.network.n_nodes() > DRAWN_NODES {
+        identities.shown = None;
         return Content::Lines(spectrum(findings));
     }
-    Content::Network(network(plan, &shown_clusters(plan, findings)))
+    if !own.is_empty() {
+        identities.shown = None;
+        let name =
+            |(m, nodes): (usize, &Vec<usize>)| identity::own_name(&plan.study.network, m, nodes);
+        return Content::Network(network(plan, own, (1..).zip(own).map(name).collect()));
+    }
+    Content::Network(predicted_network(plan, findings, identities))
+}
+
+/// The network coloured by the clusters of the predicted state to be shown, grey where there is none.
+fn predicted_network(plan: &Plan, findings: &Findings, identities: &Identities) -> NetworkPanel {
+    let Some(shown) = identities.shown else {
+        return network(plan, &[], Vec::new());
+    };
+    let state = &findings.cascade[shown];
+    let mut clusters: Vec<_> =
+        state.clusters.nontrivial().into_iter().zip(&identities.of_state[shown]).collect();
+    // These have the first colours.
+    clusters.sort_by_key(|(_, identity)| identity.colour);
+    let (nodes, names): (Vec<_>, Vec<_>) =
+        clusters.into_iter().map(|(nodes, identity)| (nodes, identity.name.clone())).unzip();
+    NetworkPanel { title: range(state.epsilon), ..network(plan, &nodes, names) }
+}
+
+/// A range of ε, as an inequality.
+fn range((from, to): (f64, Option<f64>)) -> Label {
+    let above = |from: f64| Label::math("ε").with_math(&format!(" > {}", three_digits(from)));
+    let between = |from: f64, to: f64| {
+        Label::math(&format!("{} < ε < {}", three_digits(from), three_digits(to)))
+    };
+    to.map_or_else(|| above(from), |to| between(from, to))
 }
 
 /// λ_k against k.
@@ -119,27 +163,22 @@ fn spectrum(findings: &Findings) -> LinePanel {
     }
 }
 
-/// The clusters that colour the network: those of the experiment, else of the first predicted state
-/// that has some beside global synchronisation.
-fn shown_clusters(plan: &Plan, findings: &Findings) -> Vec<Vec<usize>> {
-    let own = plan.study.sweep.as_ref().map(|sweep| sweep.observables.clusters.clone());
-    own.filter(|clusters| !clusters.is_empty()).unwrap_or_else(|| {
-        let some = findings.cascade.iter().filter(|state| state.clusters.n_clusters() > 1);
-        let clusters = some.map(|state| state.clusters.nontrivial());
-        clusters.into_iter().find(|clusters| !clusters.is_empty()).unwrap_or_default()
-    })
-}
-
-fn network(plan: &Plan, clusters: &[Vec<usize>]) -> NetworkPanel {
+/// The network coloured by clusters, the first of which has the first colour.
+fn network(plan: &Plan, clusters: &[Vec<usize>], names: Vec<Label>) -> NetworkPanel {
     let network = &plan.study.network;
-    let cluster = |node: usize| clusters.iter().position(|cluster| cluster.contains(&node));
+    let mut cluster_of = vec![None; network.n_nodes()];
+    for (cluster, nodes) in clusters.iter().enumerate() {
+        nodes.iter().for_each(|&node| cluster_of[node] = Some(cluster));
+    }
     let nodes = network.labels().iter().enumerate();
     let links = network.adjacency().outer_iterator().enumerate().flat_map(|(from, row)| {
         let row: Vec<_> = row.iter().map(|(to, &weight)| Link { from, to, weight }).collect();
         row.into_iter().filter(|link| link.from < link.to)
     });
     NetworkPanel {
-        nodes: nodes.map(|(i, label)| Node { label: label.clone(), cluster: cluster(i) }).collect(),
+        nodes: nodes
+            .map(|(i, label)| Node { label: label.clone(), cluster: cluster_of[i] })
+            .collect(),
         links: links.collect(),
         placement: match &plan.figure().layout {
             Layout::Circle => Placement::Circle,
@@ -147,9 +186,8 @@ fn network(plan: &Plan, clusters: &[Vec<usize>]) -> NetworkPanel {
             Layout::Grouped => Placement::Grouped,
             Layout::At(positions) => Placement::At(positions.clone()),
         },
-        cluster_labels: (1..=clusters.len())
-            .map(|m| Label::math("C").subscript(&m.to_string()))
-            .collect(),
+        cluster_labels: names,
+        title: Label::default(),
     }
 }
 
@@ -164,8 +202,15 @@ fn msf(msf: &MasterStability) -> LinePanel {
 }
 
 /// δx_i to the reference node or δx^c_m within clusters, whichever the experiment asks for.
-fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings) -> LinePanel {
+fn errors(
+    plan: &Plan,
+    sweep: &Sweep,
+    simulated: &Simulated,
+    findings: &Findings,
+    identities: &Identities,
+) -> LinePanel {
     let labels = plan.study.network.labels();
+    let colours = identities.shown_colours(findings, labels.len());
     let observables = &sweep.observables;
     let nodes: Vec<usize> =
         (0..labels.len()).filter(|node| Some(*node) != observables.reference).collect();
@@ -173,9 +218,12 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
         if observables.clusters.is_empty() {
             let node = nodes[number];
             let label = Label::math("δx").subscript(&labels[node]);
-            curve(plan, label, style, |at| {
+            let curve = curve(plan, label, style, |at| {
                 simulated.over_seeds(at, |errors| errors.to_reference[node])
-            })
+            });
+            // A node in no cluster has a colour that none of them has.
+            let free = identities.n_shown() + style;
+            Series { cluster: Some(colours[node].unwrap_or(free)), ..curve }
         } else {
             let label = Label::math("δx").subscript(&(number + 1).to_string()).superscript("c");
             curve(plan, label, number, |at| {
@@ -215,7 +263,7 @@ fn errors(plan: &Plan, sweep: &Sweep, simulated: &Simulated, findings: &Findings
             ErrorScale::Log => Scale::Log,
         },
         series,
-        markers: [critical(plan, findings, [first, last]), seen_by_the_source(plan)]
+        markers: [marks::critical(plan, findings, [first, last]), marks::seen_by_the_source(plan)]
             .into_iter()
             .filter(|group| !group.markers.is_empty())
             .collect(),
@@ -279,6 +327,7 @@ fn curve(
         label,
         style,
         muted: false,
+        cluster: None,
         x,
         y: of(&|point| point.mean),
         spread: Some(Spread {
@@ -289,37 +338,5 @@ fn curve(
                 SpreadKind::Bars => SpreadStyle::Bars,
             },
         }),
-    }
-}
-
-/// The predicted critical couplings within the sweep, one for each run of equal eigenvalues.
-fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
-    let wanted =
-        |mode: usize| plan.figure().mark_modes.as_ref().is_none_or(|modes| modes.contains(&mode));
-    let eigenspaces = findings.spectrum.real_modes().eigenspaces;
-    let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
-    let markers = findings
-        .critical
-        .iter()
-        .filter(|critical| leads(critical.mode) && wanted(critical.mode))
-        .filter(|critical| (first..=last).contains(&critical.epsilon))
-        .map(|critical| Marker {
-            x: critical.epsilon,
-            label: Some(Label::math("ε").subscript(&critical.mode.to_string())),
-        });
-    MarkerGroup {
-        style: MarkerStyle::Predicted,
-        legend: Some(Label::text("predicted")),
-        markers: markers.collect(),
-    }
-}
-
-/// The transitions that the source saw in its own simulations.
-fn seen_by_the_source(plan: &Plan) -> MarkerGroup {
-    let transitions = plan.figure().source_transitions.iter();
-    MarkerGroup {
-        style: MarkerStyle::Reference,
-        legend: Some(Label::text("paper")),
-        markers: transitions.map(|&x| Marker { x, label: None }).collect(),
     }
 }

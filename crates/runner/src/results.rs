@@ -53,8 +53,9 @@ pub fn write(
     let tell = |warning: &Warning| warning::say(&plan.id, warning);
     let mut warnings = eigensync::Warnings::new(&tell);
     picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
+    let svg = picture.svg.map(String::into_bytes);
     for (name, bytes) in
-        [("figure.png", picture.png), ("figure.svg", picture.svg.map(String::into_bytes))]
+        [("figure.png", picture.png), ("figure.pdf", picture.pdf), ("figure.svg", svg)]
     {
         if let Some(Err(problem)) = bytes.map(|bytes| folder.write(name, bytes)) {
             warnings.add("figure", problem.to_string());

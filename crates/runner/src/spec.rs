@@ -184,8 +184,13 @@ pub struct FigureSpec {
     /// Modes whose eigenvectors are drawn beside matrices; 2, 3 and 4 by default, or those of them
     /// that are computed.
     pub eigenvectors: Option<Vec<usize>>,
-    /// Letter of the paper's panels: "a" gives (a1), (a2), …
-    pub letter: String,
+    /// Letter of the panels where a paper has several such figures: "a" gives (a1), (a2), …; without it
+    /// they are (a), (b), …
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub letter: Option<String>,
+    /// Letters of the panels that are drawn, such as "a" or "b1"; all of them by default.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub panels: Vec<String>,
     /// How the network is laid out.
     pub layout: Layout,
     /// Modes whose critical couplings are marked on the sweep; all of them by default.
@@ -203,7 +208,8 @@ impl Default for FigureSpec {
         Self {
             kind: FigureKind::Sweep,
             eigenvectors: None,
-            letter: "a".into(),
+            letter: None,
+            panels: Vec::new(),
             layout: Layout::Force,
             mark_modes: None,
             source_transitions: Vec::new(),

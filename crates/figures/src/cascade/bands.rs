@@ -8,7 +8,7 @@ use super::{CascadePanel, count_within};
 use crate::canvas::{Canvas, Point, Rect};
 use crate::font::CAP_HEIGHT;
 use crate::label::Label;
-use crate::style::{INK, Stroke, TICK_SIZE, cluster_fill, ink_on};
+use crate::style::{INK, Stroke, TICK_SIZE, cluster_fill, ink_on, mixed_with_white};
 
 /// Strands that never are this thick cannot be seen.
 const VISIBLE: f64 = 0.1;
@@ -18,11 +18,10 @@ const HAIRLINE: f64 = 0.6;
 /// Distance of the white lines over a block.
 const HATCH: f64 = 2.4;
 const HATCH_WIDTH: f64 = 0.5;
-/// Number of colours before the palette begins anew, in tints.
-const N_COLOURS: usize = 30;
-/// Share of the colour of a band, beside white, in its block, and in each round of tints.
+/// Share of the colour of a band, beside white, in its block.
 const BLOCK_STRENGTH: f64 = 0.6;
-const TINT_STRENGTH: f64 = 0.75;
+/// Outline of the state that another panel shows.
+const SHOWN_WIDTH: f64 = 1.1;
 /// An open edge fades to white in so many steps of this width.
 const FADE_STEPS: i32 = 6;
 const FADE_STEP: f64 = 1.4;
@@ -45,6 +44,7 @@ pub(super) fn draw(
     canvas.segments(&page.between_bands(strands), white(HAIRLINE), 1.0);
     canvas.segments(&page.between_states(), white(HAIRLINE), 1.0);
     page.fade(canvas);
+    page.outline_shown(canvas);
     for strand in strands {
         page.draw_labels(canvas, strand);
     }
@@ -147,6 +147,15 @@ impl Page<'_> {
         lines
     }
 
+    /// The state that another panel shows, in a frame of its own.
+    fn outline_shown(&self, canvas: &mut Canvas) {
+        let is_shown = |column: &&Column| Some(column.state) == self.panel.shown;
+        if let Some(column) = self.columns.drawn.iter().find(is_shown) {
+            let extent = Rect { left: column.left, right: column.right, ..self.columns.frame };
+            canvas.frame(extent, Stroke::solid(INK, SHOWN_WIDTH));
+        }
+    }
+
     /// Bands that go on beyond the frame fade away at its edge.
     fn fade(&self, canvas: &mut Canvas) {
         // Half a point more on every side covers blurred edges of the bands.
@@ -196,8 +205,7 @@ impl Page<'_> {
             Clusters::Block(1) => count_within(1, "cluster", [width; 2]),
             Clusters::Block(n) => count_within(n, "clusters", [width; 2]),
             Clusters::One(cluster) => {
-                let text = &self.panel.states[column.state].clusters[cluster].label;
-                let label = Label::text(text.as_str());
+                let label = self.panel.states[column.state].clusters[cluster].label.clone();
                 (!label.is_empty() && label.width(TICK_SIZE) <= width).then_some(label)
             }
         }
@@ -225,19 +233,6 @@ fn joined(mut levels: Vec<Level>) -> Vec<[Point; 2]> {
 
 /// The colour of a band; blocks are lighter.
 fn fill(strand: &Strand) -> String {
-    // Black would be heavy over an area.
-    let palette: Vec<&str> = (0..N_COLOURS).map(cluster_fill).filter(|&c| c != INK).collect();
-    let colour = palette[strand.colour % palette.len()];
-    let round = (strand.colour / palette.len()).min(2) as i32;
-    let block = if strand.is_block { BLOCK_STRENGTH } else { 1.0 };
-    mixed_with_white(colour, 1.0 - TINT_STRENGTH.powi(round) * block)
-}
-
-fn mixed_with_white(colour: &str, white: f64) -> String {
-    let number = u32::from_str_radix(&colour[1..], 16).expect("a colour is #rrggbb");
-    let channel = |shift: u32| {
-        let value = f64::from((number >> shift) & 0xff);
-        (value + white * (255.0 - value)).round() as u32
-    };
-    format!("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0))
+    let white = if strand.is_block { 1.0 - BLOCK_STRENGTH } else { 0.0 };
+    mixed_with_white(cluster_fill(strand.colour), white)
 }

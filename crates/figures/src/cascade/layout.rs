@@ -17,7 +17,8 @@ pub(super) struct Strand {
     pub(super) first: usize,
     /// Its extents in that state and those that follow.
     pub(super) stretches: Vec<Stretch>,
-    /// Number of its colour. A block has that of the band it came from.
+    /// Number of its colour: that of its cluster in the first state it is in; a block has that of the
+    /// band it came from.
     pub(super) colour: usize,
     /// Whether it is a block.
     pub(super) is_block: bool,
@@ -52,7 +53,7 @@ impl Strand {
 
 /// The strands of a cascade; clusters below `least` nodes are in blocks.
 pub(super) fn strands(panel: &CascadePanel, least: usize) -> Vec<Strand> {
-    let mut layout = Layout { strands: Vec::new(), n_colours: 0, least };
+    let mut layout = Layout { strands: Vec::new(), least };
     let mut strand_of = Vec::new();
     for (number, state) in panel.states.iter().enumerate() {
         let rooms = layout.rooms(number, &state.clusters, &strand_of);
@@ -73,7 +74,6 @@ struct Room {
 
 struct Layout {
     strands: Vec<Strand>,
-    n_colours: usize,
     least: usize,
 }
 
@@ -118,7 +118,7 @@ impl Layout {
                 let parent = clusters[c].parent.filter(|&p| heirs[p] == Some(c));
                 let strand = match parent {
                     Some(parent) => before[parent],
-                    None => self.begin(state, None, false),
+                    None => self.begin(state, clusters[c].colour, false),
                 };
                 let to = from + clusters[c].n_nodes;
                 self.strands[strand].stretches.push(Stretch {
@@ -130,7 +130,7 @@ impl Layout {
                 from = to;
             }
             if !thin.is_empty() {
-                let strand = self.block(state, room.strand);
+                let strand = self.block(state, room.strand, clusters[thin[0]].colour);
                 let to = from + thin.iter().map(|&c| clusters[c].n_nodes).sum::<usize>();
                 let stretch = Stretch { from, to, clusters: Clusters::Block(thin.len()) };
                 self.strands[strand].stretches.push(stretch);
@@ -140,20 +140,17 @@ impl Layout {
         strand_of
     }
 
-    /// The block of a room: the one of the state before, or a new one of the colour of its band.
-    fn block(&mut self, state: usize, room: Option<usize>) -> usize {
+    /// The block of a room: the one of the state before, or a new one of the colour of its band, or of
+    /// its first cluster where it is in none.
+    fn block(&mut self, state: usize, room: Option<usize>, first: usize) -> usize {
         match room {
             Some(strand) if self.strands[strand].is_block => strand,
-            _ => self.begin(state, room.map(|strand| self.strands[strand].colour), true),
+            Some(strand) => self.begin(state, self.strands[strand].colour, true),
+            None => self.begin(state, first, true),
         }
     }
 
-    /// A new strand, of the next colour if of none yet.
-    fn begin(&mut self, first: usize, colour: Option<usize>, is_block: bool) -> usize {
-        let colour = colour.unwrap_or_else(|| {
-            self.n_colours += 1;
-            self.n_colours - 1
-        });
+    fn begin(&mut self, first: usize, colour: usize, is_block: bool) -> usize {
         self.strands.push(Strand { first, stretches: Vec::new(), colour, is_block });
         self.strands.len() - 1
     }

@@ -3,12 +3,13 @@
 
 use super::layout::{Clusters, Strand, strands};
 use super::*;
-use crate::font::{Face, text_width};
+use crate::cascade_error::CascadeError;
+use crate::tests::{boxes, texts};
 use crate::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
 use resvg::usvg::roxmltree::{Document, Node};
 
 fn cluster(n_nodes: usize, parent: Option<usize>, label: &str) -> CascadeCluster {
-    CascadeCluster { n_nodes, parent, label: label.into() }
+    CascadeCluster { n_nodes, parent, label: Label::text(label), colour: 0 }
 }
 
 /// States with these lower ends, the first without an upper end.
@@ -17,7 +18,7 @@ fn panel(n_nodes: usize, ends: &[f64], clusters: Vec<Vec<CascadeCluster>>) -> Ca
     let upper = std::iter::once(None).chain(ends.iter().copied().map(Some));
     let states = ends.iter().zip(upper).zip(clusters);
     let state = |((&lower, upper), clusters)| CascadeState { epsilon: (lower, upper), clusters };
-    CascadePanel { n_nodes, states: states.map(state).collect() }
+    CascadePanel { n_nodes, states: states.map(state).collect(), shown: None }
 }
 
 /// Ninety nodes in one cluster, then three, then six, two of which are alone in between.
@@ -81,46 +82,6 @@ fn figure(panel: &CascadePanel, [width_mm, height_mm]: [f64; 2]) -> Figure {
 
 fn svg(panel: &CascadePanel) -> String {
     figure(panel, [170.0, 90.0]).svg().unwrap()
-}
-
-fn texts(svg: &str) -> Vec<String> {
-    let document = Document::parse(svg).unwrap();
-    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
-    let text =
-        |label: Node| label.descendants().filter(Node::is_text).filter_map(|n| n.text()).collect();
-    labels.map(text).collect()
-}
-
-/// What every label covers, baseline to the height of a capital, as [left, top, right, bottom].
-fn boxes(svg: &str) -> Vec<(String, [f64; 4])> {
-    let document = Document::parse(svg).unwrap();
-    let number = |node: &Node, name| node.attribute(name).map(|v| v.parse::<f64>().unwrap());
-    let labels = document.descendants().filter(|node| node.has_tag_name("text"));
-    let covered = |label: Node| {
-        let (mut width, mut size, mut text) = (0.0, 0.0_f64, String::new());
-        for piece in label.children().filter(|node| node.has_tag_name("tspan")) {
-            let is_italic = piece.attribute("font-style").is_some();
-            let face = if is_italic { Face::Italic } else { Face::Regular };
-            let piece_size = number(&piece, "font-size").unwrap();
-            size = size.max(piece_size);
-            width += text_width(piece.text().unwrap(), face, piece_size);
-            width += number(&piece, "dx").unwrap_or(0.0);
-            text += piece.text().unwrap();
-        }
-        let [x, y] = ["x", "y"].map(|name| number(&label, name).unwrap());
-        let left = match label.attribute("text-anchor").unwrap() {
-            "start" => 0.0,
-            "middle" => width / 2.0,
-            _ => width,
-        };
-        let high = CAP_HEIGHT * size;
-        let covered = match label.attribute("transform") {
-            Some(_) => [x - high, y - left, x, y - left + width],
-            None => [x - left, y - high, x - left + width, y],
-        };
-        (text, covered)
-    };
-    labels.map(covered).collect()
 }
 
 /// The extent of every cluster of a state drawn without blocks.
@@ -198,16 +159,28 @@ fn blocks_lie_within_the_bands_they_came_from() {
 }
 
 #[test]
-fn the_larger_part_of_a_cluster_keeps_its_colour() {
-    let strands = strands(&small(), 1);
-    let colour = |state: usize, cluster: usize| {
-        let is_drawn =
-            |s: &&Strand| s.at(state).is_some_and(|at| at.clusters == Clusters::One(cluster));
-        strands.iter().find(is_drawn).unwrap().colour
-    };
-    assert_eq!([0, 1, 2].map(|c| colour(1, c)), [1, 0, 2]);
-    // Of 30 nodes the 20 go on, of two halves the first; the others have new colours.
-    assert_eq!([0, 1, 2, 3, 4].map(|c| colour(2, c)), [3, 1, 0, 2, 4]);
+fn bands_have_the_colours_of_their_clusters_and_the_state_shown_elsewhere_a_frame() {
+    let mut panel = small();
+    let colours = [vec![1], vec![2, 1, 0], vec![3, 2, 1, 0, 4]];
+    for (state, colours) in panel.states.iter_mut().zip(&colours) {
+        state
+            .clusters
+            .iter_mut()
+            .zip(colours)
+            .for_each(|(cluster, &colour)| cluster.colour = colour);
+    }
+    let strands = strands(&panel, 1);
+    for (state, colours) in colours.iter().enumerate() {
+        for (cluster, &colour) in colours.iter().enumerate() {
+            let is_drawn =
+                |s: &&Strand| s.at(state).is_some_and(|at| at.clusters == Clusters::One(cluster));
+            assert_eq!(strands.iter().find(is_drawn).unwrap().colour, colour);
+        }
+    }
+    let frames = |panel: &CascadePanel| svg(panel).matches("stroke-width=\"1.10\"").count();
+    assert_eq!(frames(&panel), 0);
+    panel.shown = Some(1);
+    assert_eq!(frames(&panel), 1);
 }
 
 #[test]
@@ -365,7 +338,7 @@ fn impossible_data_are_refused_with_their_numbers() {
 
 #[test]
 fn an_empty_panel_and_one_without_room_are_errors() {
-    let empty = CascadePanel { n_nodes: 5, states: Vec::new() };
+    let empty = CascadePanel { n_nodes: 5, states: Vec::new(), shown: None };
     assert!(matches!(empty.check("(a)"), Err(CascadeError::Empty { what: "states", .. })));
     let refused = figure(&empty, [170.0, 90.0]).svg();
     assert_eq!(refused.unwrap_err().to_string(), "panel (a) has no states");

@@ -1,14 +1,16 @@
 //! Figures of predictions above simulations, one column for each ε: matrices of δe_ij and δx_ij
-//! (the paper's Figs. 2 to 4), or nodes in space coloured by clusters of regions (its Fig. 5).
+//! (the paper's Figs. 2 to 4). Nodes stand in the order of their groups or, where there are none, of
+//! the predicted clusters, so that what is together is seen together.
 
-use clustering::{Correlation, EigenvectorDistance, Partition, maximum_overlap};
+use clustering::{Correlation, EigenvectorDistance};
 use eigensync::numbers::plain;
-use eigensync::{Agreement, Findings, Predicted, Regions, Simulated};
+use eigensync::{Agreement, Findings, Predicted, Simulated};
 
+use super::identity::Identities;
+use super::order::{self, Order};
 use crate::plan::Plan;
 use figures::{
-    Comparison, Content, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, PositionsPanel,
-    components_panel, pairs_figure,
+    Comparison, Figure, Group, HeatMapPanel, Label, Mode, NetworkPanel, components_panel,
 };
 
 /// Modes whose eigenvectors are drawn where the experiment does not say.
@@ -16,128 +18,60 @@ const DEFAULT_MODES: std::ops::RangeInclusive<usize> = 2..=4;
 
 /// The network, its eigenvectors, and for each ε (the largest first) both matrices.
 pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
+    let columns: Vec<usize> = shown(simulated).collect();
+    let epsilons: Vec<f64> = columns.iter().map(|&at| simulated.epsilon[at]).collect();
+    let states: Vec<Option<usize>> = epsilons.iter().map(|&e| order::state(findings, e)).collect();
+    let first = states.iter().flatten().copied().find(|&state| order::is_parted(findings, state));
+    let identities = Identities::showing(plan, findings, first);
+    let order = Order::of(plan, findings, &states);
+    let groups: Vec<Vec<Group>> =
+        states.iter().map(|&state| order.groups(plan, findings, &identities, state)).collect();
     let vectors = findings.spectrum.real_modes().eigenvectors;
     let modes: Vec<Mode> = shown_modes(plan, findings)
         .into_iter()
         .filter_map(|mode| {
-            let components = vectors.get(mode - 1)?.to_vec();
+            let components = order.arranged(vectors.get(mode - 1)?);
             Some(Mode { label: Label::math("v").subscript(&mode.to_string()), components })
         })
         .collect();
-    let groups = groups(plan);
-    let matrices = shown(simulated).map(|position| {
+    let matrices = columns.iter().zip(&groups).map(|(&position, groups)| {
         let agreement = findings.agreement.get(position);
-        [
+        let both = [
             predicted(plan, findings, simulated, position),
             errors(plan, simulated, agreement, position),
-        ]
+        ];
+        both.map(|panel| HeatMapPanel {
+            values: order.arranged_pairs(&panel.values),
+            groups: groups.clone(),
+            ..panel
+        })
     });
+    let mut eigenvectors = components_panel(&modes, groups.first().map_or(&[], Vec::as_slice));
+    if !order.is_of_nodes() {
+        eigenvectors.x_label = Label::text("place in the order of clusters");
+    }
     Comparison {
         title: plan.experiment.title.clone(),
-        network: grouped_network(plan),
-        eigenvectors: components_panel(&modes, &groups),
+        network: network(plan, findings, &identities),
+        eigenvectors,
         matrices: matrices.collect(),
     }
     .figure()
 }
 
-/// The network coloured by its groups, which keep their names.
-fn grouped_network(plan: &Plan) -> NetworkPanel {
+/// The network coloured by its groups, which keep their names, else by predicted clusters.
+fn network(plan: &Plan, findings: &Findings, identities: &Identities) -> NetworkPanel {
     let groups = plan.study.network.groups();
+    if groups.is_empty() {
+        return super::predicted_network(plan, findings, identities);
+    }
     let nodes: Vec<Vec<usize>> = groups.iter().map(|group| group.nodes.clone()).collect();
-    NetworkPanel {
-        cluster_labels: groups.iter().map(|group| Label::text(group.name.as_str())).collect(),
-        ..super::network(plan, &nodes)
-    }
-}
-
-/// Nodes at their places, coloured by predicted clusters above simulated ones.
-pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
-    let positions = plan.study.network.positions().unwrap_or_default();
-    let panel = |position: usize, clusters: Vec<Option<usize>>, grey: &str| {
-        Content::Positions(PositionsPanel {
-            title: epsilon(simulated.epsilon[position]),
-            positions: positions.to_vec(),
-            clusters,
-            grey_label: Label::text(grey),
-        })
-    };
-    let columns = shown(simulated).map(|position| {
-        let agreement = findings.agreement.get(position);
-        if let Some(regions) = agreement.and_then(|agreement| agreement.regions.as_ref()) {
-            return colours(regions)
-                .map(|clusters| panel(position, clusters, "not synchronisable"));
-        }
-        // Nothing to tell nodes apart by, or nothing to compare: the word says which.
-        let grey = |word| panel(position, vec![None; positions.len()], word);
-        let of = agreement.map_or(&Predicted::NotReached, |agreement| &agreement.predicted);
-        let predicted = match of {
-            Predicted::Uncoupled => grey("uncoupled"),
-            Predicted::NotReached => grey("not predicted"),
-            Predicted::AllTogether => panel(position, vec![Some(0); positions.len()], ""),
-            Predicted::Unstable(_) => grey("not compared"),
-        };
-        let escaped = simulated.bounded(position) == 0;
-        [predicted, grey(if escaped { "all runs escaped" } else { "not compared" })]
-    });
-    pairs_figure(plan.experiment.title.clone(), columns.collect())
-}
-
-/// Colours of nodes on both sides: predicted clusters by falling size, and for each simulated cluster
-/// the colour of the predicted one that it overlaps most.
-fn colours(regions: &Regions) -> [Vec<Option<usize>>; 2] {
-    let sides = [regions.predicted.cluster_of_node(), regions.simulated.cluster_of_node()];
-    let [predicted, simulated] = &sides;
-    let (one, other): (Vec<usize>, Vec<usize>) =
-        predicted.iter().zip(simulated).filter_map(|(a, b)| a.zip(*b)).unzip();
-    let matches =
-        maximum_overlap(&Partition::from_marks(&one), &Partition::from_marks(&other)).matches;
-    // Partitions number clusters by their first node.
-    let (one, other) = (in_order_of_appearance(&one), in_order_of_appearance(&other));
-    let of_predicted = by_falling_size(predicted, regions.predicted.n_clusters());
-    let mut of_simulated = vec![None; regions.simulated.n_clusters()];
-    for (a, b) in matches {
-        of_simulated[other[b]] = Some(of_predicted[one[a]]);
-    }
-    let unmatched = by_falling_size(simulated, regions.simulated.n_clusters());
-    let next = |cluster: usize| of_predicted.len() + unmatched[cluster];
-    let of_simulated: Vec<usize> = of_simulated
-        .into_iter()
-        .enumerate()
-        .map(|(cluster, colour)| colour.unwrap_or_else(|| next(cluster)))
-        .collect();
-    let coloured = |nodes: &[Option<usize>], colours: &[usize]| {
-        nodes.iter().map(|cluster| cluster.map(|cluster| colours[cluster])).collect()
-    };
-    [coloured(predicted, &of_predicted), coloured(simulated, &of_simulated)]
-}
-
-/// Every mark once, in the order in which marks appear.
-fn in_order_of_appearance(marks: &[usize]) -> Vec<usize> {
-    let mut seen = Vec::new();
-    for &mark in marks {
-        if !seen.contains(&mark) {
-            seen.push(mark);
-        }
-    }
-    seen
-}
-
-/// The place of each cluster among all of them by falling size.
-fn by_falling_size(cluster_of: &[Option<usize>], n_clusters: usize) -> Vec<usize> {
-    let mut sizes = vec![0; n_clusters];
-    cluster_of.iter().flatten().for_each(|&cluster| sizes[cluster] += 1);
-    let mut order: Vec<usize> = (0..n_clusters).collect();
-    order.sort_by_key(|&cluster| std::cmp::Reverse(sizes[cluster]));
-    let mut place = vec![0; n_clusters];
-    for (rank, cluster) in order.into_iter().enumerate() {
-        place[cluster] = rank;
-    }
-    place
+    let names = groups.iter().map(|group| Label::text(group.name.as_str()));
+    super::network(plan, &nodes, names.collect())
 }
 
 /// The positions of a sweep that have a column, the largest ε first, as the paper orders its panels.
-fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
+pub fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
     super::room::columns(simulated.epsilon.len()).into_iter()
 }
 
@@ -176,7 +110,7 @@ fn predicted(
         range: None,
         bar_label: Label::math("δe").subscript("ij"),
         without_values: Label::text(word),
-        groups: groups(plan),
+        groups: Vec::new(),
     }
 }
 
@@ -201,7 +135,7 @@ fn errors(
         range: None,
         bar_label: Label::math("δx").subscript("ij"),
         without_values: Label::text(format!("all runs {}", simulated.broke_off())),
-        groups: groups(plan),
+        groups: Vec::new(),
     }
 }
 
@@ -227,17 +161,6 @@ pub fn error_matrix(plan: &Plan, simulated: &Simulated, position: usize) -> Vec<
     (0..n_nodes).flat_map(|i| (0..n_nodes).map(move |j| (i, j))).map(|(i, j)| error(i, j)).collect()
 }
 
-/// The groups whose nodes are consecutive; others have no place on an axis.
-fn groups(plan: &Plan) -> Vec<Group> {
-    let groups = plan.study.network.groups().iter().filter_map(|group| {
-        let (first, last) = (*group.nodes.first()?, *group.nodes.last()?);
-        let consecutive = last - first + 1 == group.nodes.len();
-        consecutive
-            .then(|| Group { label: Label::text(group.name.as_str()), nodes: first..last + 1 })
-    });
-    groups.collect()
-}
-
-fn epsilon(value: f64) -> Label {
+pub fn epsilon(value: f64) -> Label {
     Label::math("ε").with_math(&format!(" = {}", plain(value)))
 }

@@ -7,13 +7,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use super::{DOTS_PER_INCH, figure, foreseen};
 use crate::plan::Plan;
 use crate::spec::FigureKind;
-use figures::{Drawn, png};
+use figures::{Drawn, Figure, FigureError, pdf, png};
 
 /// The files, those that could be made, and what is not as it was asked for.
 #[derive(Default)]
 pub struct Picture {
     pub svg: Option<String>,
     pub png: Option<Vec<u8>>,
+    pub pdf: Option<Vec<u8>>,
     pub warnings: Vec<String>,
 }
 
@@ -23,7 +24,11 @@ pub fn picture(plan: &Plan, findings: &Findings) -> Picture {
         return Picture::default();
     }
     let mut warnings = foreseen(plan);
-    let svg = match guarded(|| figure(plan, findings).drawn().map_err(|error| error.to_string())) {
+    let drawn = guarded(|| {
+        let figure = chosen_panels(figure(plan, findings), &plan.figure().panels, &mut warnings);
+        figure.drawn().map_err(|error| error.to_string())
+    });
+    let svg = match drawn {
         Ok(Drawn { svg, left_out }) => {
             warnings.extend(left_out.iter().map(|error| format!("{error}: it is left empty")));
             Some(svg)
@@ -33,11 +38,28 @@ pub fn picture(plan: &Plan, findings: &Findings) -> Picture {
             None
         }
     };
-    let png = svg.as_deref().and_then(|svg| {
-        let made = guarded(|| png(svg, DOTS_PER_INCH).map_err(|error| error.to_string()));
-        made.map_err(|reason| warnings.push(format!("figure.png is missing: {reason}"))).ok()
-    });
-    Picture { svg, png, warnings }
+    let mut made = |file: &str, from_svg: &dyn Fn(&str) -> Result<Vec<u8>, FigureError>| {
+        let svg = svg.as_deref()?;
+        let made = guarded(|| from_svg(svg).map_err(|error| error.to_string()));
+        made.map_err(|reason| warnings.push(format!("{file} is missing: {reason}"))).ok()
+    };
+    let png = made("figure.png", &|svg| png(svg, DOTS_PER_INCH));
+    let pdf = made("figure.pdf", &pdf);
+    Picture { svg, png, pdf, warnings }
+}
+
+/// The figure with the panels that are asked for; the whole of it where it has none of them.
+fn chosen_panels(whole: Figure, letters: &[String], warnings: &mut Vec<String>) -> Figure {
+    let has = |letter: &&String| whole.panels.iter().any(|p| p.letter == format!("({letter})"));
+    let missing: Vec<&str> =
+        letters.iter().filter(|letter| !has(letter)).map(String::as_str).collect();
+    if !missing.is_empty() {
+        let all: Vec<&str> =
+            whole.panels.iter().map(|p| p.letter.trim_matches(['(', ')'])).collect();
+        let (missing, all) = (missing.join(", "), all.join(", "));
+        warnings.push(format!("there is no panel {missing}: the figure has {all}"));
+    }
+    whole.only(letters).unwrap_or(whole)
 }
 
 /// The last line of defence: panics become reasons.

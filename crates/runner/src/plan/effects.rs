@@ -6,10 +6,11 @@ use crate::problem::Result;
 use crate::spec::{FigureKind, Format, MethodKind, NetworkSpec};
 
 /// Keys of `[figure]` beside `kind`.
-const FIGURE_KEYS: [&str; 7] = [
+const FIGURE_KEYS: [&str; 8] = [
     "eigenvectors",
     "letter",
     "layout",
+    "panels",
     "mark_modes",
     "source_transitions",
     "error_scale",
@@ -50,21 +51,30 @@ impl Checker<'_> {
         let has_sweep = self.experiment.sweep.is_some();
         let (used, reason): (&[&str], _) = match kind {
             FigureKind::Sweep if has_sweep => (
-                &["letter", "layout", "mark_modes", "source_transitions", "error_scale", "spread"],
+                &[
+                    "letter",
+                    "panels",
+                    "layout",
+                    "mark_modes",
+                    "source_transitions",
+                    "error_scale",
+                    "spread",
+                ],
                 "it is for figures of the kind \"matrices\"",
             ),
             FigureKind::Sweep => (
-                &["letter", "layout"],
+                &["letter", "panels", "layout"],
                 "without a [sweep] the figure shows the network, the predicted states and Λ(σ)",
             ),
             FigureKind::Matrices => (
-                &["eigenvectors", "layout"],
+                &["eigenvectors", "panels", "layout"],
                 "figures of the kind \"matrices\" have the network, eigenvectors and matrices, in \
                  panels with letters of their own",
             ),
-            FigureKind::Regions => {
-                (&[], "figures of the kind \"regions\" show nodes at their places, and no more")
-            }
+            FigureKind::Regions => (
+                &["panels"],
+                "figures of the kind \"regions\" show nodes at their places, and no more",
+            ),
             FigureKind::None => (&[], "there is no figure"),
         };
         let unused = FIGURE_KEYS.iter().filter(|key| !used.contains(key));
