@@ -23,6 +23,9 @@ const RADII: [f64; 2] = [0.5, 3.0];
 const NAME_ROW: f64 = 15.0;
 const NAME_DROP: f64 = 10.0;
 const GAP: f64 = 8.0;
+/// Radius of the dots in the key, and room up to their names.
+const KEY_DOT: f64 = 2.5;
+const KEY_LEAD: f64 = 8.0;
 /// Slices in depth of a view: nearer ones are drawn over those behind.
 const SLICES: usize = 12;
 /// Extent of a network whose nodes all share one place, in place of none.
@@ -89,7 +92,8 @@ impl PositionsPanel {
         let middle = (cell.left + cell.right) / 2.0;
         title::draw(canvas, &self.title, middle, (cell, cell.right), panel);
         let right_column = layout.columns[1] - layout.size[Y] / 2.0;
-        self.draw_legend(canvas, [right_column, layout.rows[1]], layout.size[Y]);
+        let room = [cell.right - right_column, layout.size[Y]];
+        self.draw_legend(canvas, [right_column, layout.rows[1]], room);
         Ok(())
     }
 
@@ -180,7 +184,7 @@ impl PositionsPanel {
 
     /// How many nodes are in clusters, then a key: each cluster with its name, as many as there is
     /// room for, and the grey nodes.
-    fn draw_legend(&self, canvas: &mut Canvas, [left, middle]: Point, height: f64) {
+    fn draw_legend(&self, canvas: &mut Canvas, [left, middle]: Point, [width, height]: [f64; 2]) {
         if self.grey_label.is_empty() {
             return;
         }
@@ -205,16 +209,20 @@ impl PositionsPanel {
             lines.push((None, Label::text(format!("and {} more", numbers.len() - n_named))));
         }
         lines.push((Some(UNCLUSTERED), self.grey_label.clone()));
+        let lead = |fill: Option<&str>| if fill.is_some() { KEY_LEAD } else { 0.0 };
+        let widest = lines.iter().map(|(fill, line)| lead(*fill) + line.width(TICK_SIZE));
+        // In a narrow column the whole key is smaller.
+        let scale = (width / widest.fold(0.0, f64::max)).min(1.0);
         let above = (lines.len() - 1) as f64 / 2.0 * line_height;
-        let mut baseline = middle - above + CAP_HEIGHT * TICK_SIZE / 2.0;
-        for (fill, line) in lines {
-            let mut start = left;
+        let half = scale * CAP_HEIGHT * TICK_SIZE / 2.0;
+        for (k, (fill, line)) in lines.into_iter().enumerate() {
+            let middle = middle + scale * (k as f64 * line_height - above);
             if let Some(fill) = fill {
-                canvas.dots(&[[left + 2.5, baseline - CAP_HEIGHT * TICK_SIZE / 2.0]], 2.5, fill);
-                start += 8.0;
+                let radius = scale * KEY_DOT;
+                canvas.dots(&[[left + radius, middle]], radius, fill);
             }
-            canvas.label(&line, [start, baseline], TICK_SIZE, Anchor::Start);
-            baseline += line_height;
+            let start = [left + scale * lead(fill), middle + half];
+            canvas.label(&line, start, scale * TICK_SIZE, Anchor::Start);
         }
     }
 }

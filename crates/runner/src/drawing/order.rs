@@ -66,7 +66,7 @@ impl Order {
     }
 
     /// The groups, else the clusters of a state, that stand together in this order. Where places are no
-    /// numbers of nodes and nothing has a name, what the places are.
+    /// numbers of nodes and nothing has a name, a word in place of wrong numbers.
     pub fn groups(
         &self,
         plan: &Plan,
@@ -87,7 +87,7 @@ impl Order {
             named.iter().filter_map(|g| self.together(&g.nodes, label(&g.name))).collect()
         };
         if groups.is_empty() && !self.is_of_nodes() {
-            let label = Label::text("nodes by clusters");
+            let label = Label::text("nodes");
             groups.push(Group { label, nodes: 0..self.nodes.len() });
         }
         groups
