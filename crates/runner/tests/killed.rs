@@ -14,6 +14,7 @@ const WHOLE: [&str; support::TINY_FILES] = [
     "cascade.nwk",
     "clusters.csv",
     "eigenvectors.csv",
+    "figure.pdf",
     "figure.png",
     "figure.svg",
     "membership.csv",

@@ -33,6 +33,7 @@ fn a_run_whose_claims_hold_ends_with_status_0_and_leaves_a_whole_folder() {
         "cascade.nwk",
         "clusters.csv",
         "eigenvectors.csv",
+        "figure.pdf",
         "figure.png",
         "figure.svg",
         "membership.csv",
