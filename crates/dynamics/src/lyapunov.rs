@@ -24,7 +24,7 @@ use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Pro
 const SHARED_ORBIT: usize = 4;
 
 /// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
-/// time, with standard errors over [`BLOCKS`] blocks. Tangents with one seed have one orbit, and are
+/// time, with standard errors over [`crate::BLOCKS`] blocks. Tangents with one seed have one orbit, and are
 /// cheaper for it; their errors are then correlated.
 ///
 /// Runs on the current rayon pool; results come in the order of `tangents` and do not depend on how

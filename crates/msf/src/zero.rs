@@ -15,7 +15,7 @@ pub struct Zero {
     pub standard_error: f64,
     /// Whether Λ falls through zero, so that larger σ is stable.
     pub falling: bool,
-    /// Whether it is known as well as was asked for: [`Refinement::relative_error`].
+    /// Whether it is known as well as was asked for: [`crate::Refinement::relative_error`].
     pub refined: bool,
     /// By how much half the step of the integrator moves it, with the standard error of that; none
     /// where no line could be drawn.
