@@ -17,8 +17,8 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{
-    Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, ROUNDING_KICK,
-    Replica, Schedule, Simulation, SparseMatrix, Work,
+    Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, QUIET,
+    ROUNDING_KICK, Replica, Schedule, Simulation, SparseMatrix, Work,
 };
 
 fn x_into_x() -> Coupling {
@@ -56,7 +56,7 @@ fn time_run(criterion: &mut Criterion, name: &str, simulation: &Simulation<'_>, 
     let mut group = criterion.benchmark_group(name);
     group.throughput(Throughput::Elements(node_steps as u64 * simulation.schedule.steps()));
     group.bench_function(lanes.to_string(), |bencher| {
-        bencher.iter(|| simulation.run(&replicas, dynamics::QUIET).expect("the schedule is sound"));
+        bencher.iter(|| simulation.run(&replicas, QUIET).expect("the schedule is sound"));
     });
 }
 
@@ -79,17 +79,19 @@ fn observe(criterion: &mut Criterion) {
     time_run(criterion, "observe/cortex989", &simulation(cortex.matrix(), 640, pairs), 16);
 }
 
-/// Λ at 121 values of σ about one orbit.
+/// Λ at 121 values of σ about one orbit, and at 32 with orbits of their own, as zeros are refined.
 fn msf(criterion: &mut Criterion) {
     let times = Times { step: 0.01, transient: 100.0, average: 1000.0, renormalise: 0.5 };
-    let tangents: Vec<_> =
+    let one_orbit: Vec<_> =
         (0..121).map(|k| Tangent { sigma: 0.0125 * f64::from(k), seed: 1 }).collect();
+    let own_orbits: Vec<_> = (0..32).map(|seed| Tangent { sigma: 0.9, seed }).collect();
     let mut group = criterion.benchmark_group("msf/hindmarsh_rose");
-    group.throughput(Throughput::Elements(tangents.len() as u64 * times.steps()));
-    group.bench_function("121", |bencher| {
-        bencher
-            .iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, dynamics::QUIET));
-    });
+    for (name, tangents) in [("121", one_orbit), ("32-own-orbits", own_orbits)] {
+        group.throughput(Throughput::Elements(tangents.len() as u64 * times.steps()));
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, QUIET));
+        });
+    }
 }
 
 /// Multiplications and additions on `V` independent runs of `L` numbers each.

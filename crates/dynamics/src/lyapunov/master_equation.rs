@@ -129,7 +129,9 @@ where
     }
 }
 
-/// Orbits and tangents as they are.
+/// Orbits and tangents as they are, from a cache line on: sixteen lanes that straddle two lines cost half
+/// as much again, and where they come to lie would else be chance.
+#[repr(align(64))]
 struct Growth<O, V, const D: usize, const L: usize> {
     equation: MasterEquation<O, L>,
     state: [Dual<V, Lanes<L>>; D],
