@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
+use crate::statistics::BLOCKS;
+
 /// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
 /// below 10³, in the units of their equations.
 pub const ESCAPE_RADIUS: f64 = 1e6;
-
-use crate::statistics::BLOCKS;
 
 /// Why a simulation or an exponent could not be computed.
 #[derive(Clone, Debug, Error, PartialEq)]

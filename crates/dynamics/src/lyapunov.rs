@@ -90,8 +90,8 @@ pub fn master_exponents_with(
 
 /// All Lyapunov exponents of the isolated oscillator, descending, per unit of model time.
 ///
-/// As many tangents as components are carried along one orbit and re-orthogonalised at every interval (QR
-/// by modified Gram–Schmidt).
+/// As many tangents as components are carried along one orbit and re-orthogonalised at every interval
+/// (QR by modified Gram–Schmidt).
 ///
 /// # Errors
 /// As [`master_exponents`].

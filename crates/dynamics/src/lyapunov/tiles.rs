@@ -95,25 +95,24 @@ impl<'a> Tiles<'a> {
 
 impl Growing<TILE> for Tiles<'_> {
     fn advance(&mut self, n_steps: u64, h: f64) {
-        let mut slope = [self.value.clone(), self.tangent.clone()];
+        let mut ahead = [self.value.clone(), self.tangent.clone()];
+        let (mut sum, mut slope) = (ahead.clone(), ahead.clone());
         for _ in 0..n_steps {
-            let state = [self.value.clone(), self.tangent.clone()];
-            let (mut sum, mut ahead) = (state.clone(), state.clone());
             for (weight, advance) in STAGES {
                 self.slope(&ahead, &mut slope);
-                for part in 0..2 {
-                    let flat = slope[part].as_flattened();
-                    let (sum, ahead) =
-                        (sum[part].as_flattened_mut(), ahead[part].as_flattened_mut());
-                    let state = state[part].as_flattened();
-                    for k in 0..flat.len() {
-                        sum[k] += flat[k] * (weight * h);
-                        ahead[k] = state[k] + flat[k] * (advance * h);
+                for (part, state) in [&self.value, &self.tangent].into_iter().enumerate() {
+                    let (state, slope) = (state.as_flattened(), slope[part].as_flattened());
+                    let sum = sum[part].as_flattened_mut();
+                    let ahead = ahead[part].as_flattened_mut();
+                    for k in 0..state.len() {
+                        sum[k] += slope[k] * (weight * h);
+                        ahead[k] = state[k] + slope[k] * (advance * h);
                     }
                 }
             }
-            let [value, tangent] = sum;
-            (self.value, self.tangent) = (value, tangent);
+            self.value.clone_from(&sum[0]);
+            self.tangent.clone_from(&sum[1]);
+            ahead.clone_from(&sum);
         }
     }
 
