@@ -190,7 +190,9 @@ impl Judge<'_> {
             }
             (Answer::CannotBeJudged(_), _) => Verdict::CannotBeJudged,
             (Answer::Differs, Some(_)) => Verdict::DiffersAsKnown,
-            (Answer::Differs, _) if is_quick && self.is_simulated() => Verdict::NeedsFullRun,
+            (Answer::Differs, _) if is_quick && self.spec.of.is_simulated() => {
+                Verdict::NeedsFullRun
+            }
             (Answer::Differs | Answer::NothingToJudge, _) => Verdict::Differs,
         };
         let reason = match answer {
@@ -242,7 +244,7 @@ impl Judge<'_> {
     /// The runs on which a simulated claim stands; of an onset or an order those that do not escape at
     /// its end.
     fn runs(&self) -> Option<Runs> {
-        let simulated = self.findings.simulated.as_ref().filter(|_| self.is_simulated())?;
+        let simulated = self.findings.simulated.as_ref().filter(|_| self.spec.of.is_simulated())?;
         let of = simulated.seeds.len();
         let bounded = |&epsilon: &f64| Some(simulated.bounded(simulated.position(epsilon)?));
         let not_escaped = |clusters: &[Vec<usize>]| {
@@ -256,24 +258,6 @@ impl Judge<'_> {
             _ => self.epsilon().iter().filter_map(bounded).min(),
         };
         Some(Runs { bounded: fewest?, of })
-    }
-
-    fn is_simulated(&self) -> bool {
-        use Quantity as Q;
-        matches!(
-            self.spec.of,
-            Q::SimulatedClusters
-                | Q::SimulatedOnset
-                | Q::SimulatedOrder
-                | Q::SimulatedError
-                | Q::Pearson
-                | Q::Spearman
-                | Q::RandIndex
-                | Q::RegionVerdicts
-                | Q::SimulatedRegions
-                | Q::SimulatedGrey
-                | Q::SimulatedSize
-        )
     }
 
     fn epsilon(&self) -> &[f64] {

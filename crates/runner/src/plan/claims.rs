@@ -92,14 +92,14 @@ impl Claim<'_> {
         let prefix = if self.spec.of == Q::Nodes { Allowed } else { Meaningless };
         self.used("group_prefix", prefix, at.group_prefix.is_some())?;
         self.group_prefix()?;
-        if self.is_of_regions() && self.checker.experiment.regions.is_none() {
+        if self.spec.of.is_of_regions() && self.checker.experiment.regions.is_none() {
             return self.refuse("", "is about regions, but there is no [regions]");
         }
         match &self.plan.study.sweep {
-            None if self.is_simulated() => {
+            None if self.needs_sweep() => {
                 self.refuse("", "is about simulations, but there is no [sweep]")
             }
-            Some(sweep) if self.is_simulated() && !sweep.observables.pairs => {
+            Some(sweep) if self.needs_sweep() && !sweep.observables.pairs => {
                 let message = format!(
                     "needs the errors of all pairs of nodes, which are kept for networks of up to \
                      {ALL_PAIRS} nodes"
@@ -131,33 +131,9 @@ impl Claim<'_> {
     }
 
     /// Whether it speaks of the two-threshold analysis, which is made at the ε of the sweep.
-    fn is_of_regions(&self) -> bool {
-        use Quantity as Q;
-        matches!(
-            self.spec.of,
-            Q::RegionVerdicts
-                | Q::PredictedRegions
-                | Q::SimulatedRegions
-                | Q::PredictedGrey
-                | Q::SimulatedGrey
-                | Q::PredictedSize
-                | Q::SimulatedSize
-        )
-    }
-
-    fn is_simulated(&self) -> bool {
-        use Quantity as Q;
-        let of_both = matches!(
-            self.spec.of,
-            Q::SimulatedClusters
-                | Q::SimulatedOnset
-                | Q::SimulatedOrder
-                | Q::SimulatedError
-                | Q::Pearson
-                | Q::Spearman
-                | Q::RandIndex
-        );
-        of_both || self.is_of_regions()
+    /// Regions are held against the simulated ones, whichever of both a claim is about.
+    fn needs_sweep(&self) -> bool {
+        self.spec.of.is_simulated() || self.spec.of.is_of_regions()
     }
 
     fn epsilon(&self) -> Result<()> {
@@ -172,7 +148,7 @@ impl Claim<'_> {
 
     fn one_epsilon(&self, epsilon: f64) -> Result<()> {
         self.checker.positive(&self.key(".where.epsilon"), epsilon)?;
-        let Some(sweep) = self.plan.study.sweep.as_ref().filter(|_| self.is_simulated()) else {
+        let Some(sweep) = self.plan.study.sweep.as_ref().filter(|_| self.needs_sweep()) else {
             return Ok(());
         };
         if sweep.epsilon.contains(&epsilon) {

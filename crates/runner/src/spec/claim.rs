@@ -108,6 +108,40 @@ pub enum Quantity {
     SimulatedSize,
 }
 
+impl Quantity {
+    /// Whether it is about the two-threshold analysis of regions.
+    pub fn is_of_regions(self) -> bool {
+        matches!(
+            self,
+            Self::RegionVerdicts
+                | Self::PredictedRegions
+                | Self::SimulatedRegions
+                | Self::PredictedGrey
+                | Self::SimulatedGrey
+                | Self::PredictedSize
+                | Self::SimulatedSize
+        )
+    }
+
+    /// Whether it is made from simulations.
+    pub fn is_simulated(self) -> bool {
+        matches!(
+            self,
+            Self::SimulatedClusters
+                | Self::SimulatedOnset
+                | Self::SimulatedOrder
+                | Self::SimulatedError
+                | Self::Pearson
+                | Self::Spearman
+                | Self::RandIndex
+                | Self::RegionVerdicts
+                | Self::SimulatedRegions
+                | Self::SimulatedGrey
+                | Self::SimulatedSize
+        )
+    }
+}
+
 /// Each value against the one before it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
