@@ -87,10 +87,7 @@ impl Compute for Plainly<'_> {
         self.0.begins("sweep", Some(sweep.steps()));
         let starts = sweep.replicas().into_iter().map(Start::from).collect();
         let simulation = study.simulation(sweep, sweep.schedule);
-        simulation.run_observed(starts, &Watched(self.0)).map_err(|error| match error {
-            DynamicsError::Cancelled => Error::Cancelled,
-            other => Error::Sweep(other),
-        })
+        simulation.run_observed(starts, &Watched(self.0)).map_err(not_swept)
     }
 
     fn step_effects(
@@ -104,14 +101,11 @@ impl Compute for Plainly<'_> {
         let at = |schedule: dynamics::Schedule| {
             self.0.begins("half step", Some(probe.replicas.len() as u64 * schedule.steps()));
             let starts = probe.replicas.iter().map(|&replica| Start::from(replica)).collect();
-            study.simulation(sweep, schedule).run_observed(starts, &Watched(self.0))
+            let simulation = study.simulation(sweep, schedule);
+            simulation.run_observed(starts, &Watched(self.0)).map_err(not_swept)
         };
         let [at_step, at_half] = probe.schedules.map(at);
-        let failed = |error| match error {
-            DynamicsError::Cancelled => Error::Cancelled,
-            other => Error::Sweep(other),
-        };
-        Ok(probe.effects(simulated, [&at_step.map_err(failed)?, &at_half.map_err(failed)?]))
+        Ok(probe.effects(simulated, [&at_step?, &at_half?]))
     }
 
     fn stage<T>(
@@ -140,6 +134,14 @@ pub(crate) fn not_curve(error: MsfError) -> Error {
     match error {
         MsfError::Dynamics(DynamicsError::Cancelled) => Error::Cancelled,
         other => Error::Curve(other),
+    }
+}
+
+/// What kept replicas from being simulated.
+fn not_swept(error: DynamicsError) -> Error {
+    match error {
+        DynamicsError::Cancelled => Error::Cancelled,
+        other => Error::Sweep(other),
     }
 }
 

@@ -63,8 +63,7 @@ pub fn curve_by<C: Compute>(
     compute: &C,
 ) -> Result<(MasterStability, Vec<Warning>), C::Error> {
     let tell = |warning: &Warning| compute.warn(warning);
-    let mut warnings = Warnings::new(&tell);
-    before.iter().for_each(|warning| warnings.add(warning.about, warning.message.as_str()));
+    let mut warnings = Warnings::after(before, &tell);
     let msf = looked_at(study, compute, &mut warnings)?;
     Ok((msf, warnings.into_list()))
 }
@@ -79,10 +78,7 @@ pub fn find_by<C: Compute>(
     compute: &C,
 ) -> Result<Findings, C::Error> {
     let tell = |warning: &Warning| compute.warn(warning);
-    let mut warnings = Warnings::new(&tell);
-    for Warning { about, message } in before {
-        warnings.add(about, message.as_str());
-    }
+    let mut warnings = Warnings::after(before, &tell);
     let msf = looked_at(study, compute, &mut warnings)?;
     let stable = &msf.stable;
     let n_nodes = study.network.n_nodes();

@@ -18,9 +18,10 @@ pub struct Warnings<'a> {
 }
 
 impl<'a> Warnings<'a> {
-    /// None yet; whoever listens is told of each.
-    pub fn new(tell: &'a dyn Fn(&Warning)) -> Self {
-        Self { tell, list: Vec::new() }
+    /// Those that are known before; whoever listens is told of each of them, and of all that follow.
+    pub fn after(before: &[Warning], tell: &'a dyn Fn(&Warning)) -> Self {
+        before.iter().for_each(tell);
+        Self { tell, list: before.to_vec() }
     }
 
     /// Tells a warning and keeps it.

@@ -173,7 +173,7 @@ fn experiment(plan: &Plan) -> Value {
 /// The figure; what goes wrong with it costs no results.
 fn draw(folder: &Folder, plan: &Plan, msf: &MasterStability) -> Vec<Warning> {
     let tell = |warning: &Warning| warning::say(&plan.id, warning);
-    let mut warnings = Warnings::new(&tell);
+    let mut warnings = Warnings::after(&[], &tell);
     for (name, drawn) in drawing::curve_alone(&plan.experiment.title, msf) {
         let written = drawn
             .and_then(|bytes| folder.write(name, bytes).map_err(|problem| problem.to_string()));

@@ -51,7 +51,7 @@ pub fn write(
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
     let tell = |warning: &Warning| warning::say(&plan.id, warning);
-    let mut warnings = eigensync::Warnings::new(&tell);
+    let mut warnings = eigensync::Warnings::after(&[], &tell);
     picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
     let svg = picture.svg.map(String::into_bytes);
     for (name, bytes) in
