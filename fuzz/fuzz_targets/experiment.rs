@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    if let Err(message) = runner::check_syntax(text) {
+    if let Err(message) = experiment::check_syntax(text) {
         assert!(message.starts_with("experiment.toml"), "{message}");
         assert!(message.len() < 2000, "{} bytes: {message}", message.len());
     }

@@ -14,7 +14,7 @@ pub fn run(args: &Args) -> Result<u8, String> {
     setup::ensure()?;
     status(
         cargo()
-            .args(["run", "--release", "--quiet", "--package", "runner", "--", "compare"])
+            .args(["run", "--release", "--quiet", "--package", "command", "--", "compare"])
             .args(&args.ids),
     )
 }

@@ -21,7 +21,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<u8, String> {
     setup::ensure()?;
     let mut build = cargo();
-    build.args(["build", "--package", "runner"]);
+    build.args(["build", "--package", "command"]);
     if !args.debug {
         build.arg("--release");
     }

@@ -26,12 +26,12 @@ pub fn run(args: &Args) -> Result<u8, String> {
     let experiments = experiments(&args.only)?;
     data::bring_missing();
     eprintln!("building eigensync (a few minutes the first time)");
-    let built = status(cargo().args(["build", "--release", "--package", "runner"]))?;
+    let built = status(cargo().args(["build", "--release", "--package", "command"]))?;
     if built != 0 {
         return Err("eigensync could not be built; cargo's own messages are above".into());
     }
     let mut eigensync = cargo();
-    eigensync.args(["run", "--release", "--quiet", "--package", "runner", "--", "run"]);
+    eigensync.args(["run", "--release", "--quiet", "--package", "command", "--", "run"]);
     eigensync.args(&experiments);
     if args.quick {
         eigensync.arg("--quick");

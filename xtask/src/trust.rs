@@ -151,7 +151,7 @@ fn program(args: &Args) -> Result<PathBuf, String> {
     }
     setup::ensure()?;
     eprintln!("building eigensync (a few minutes the first time)");
-    if status(cargo().args(["build", "--release", "--package", "runner"]))? != 0 {
+    if status(cargo().args(["build", "--release", "--package", "command"]))? != 0 {
         return Err("eigensync could not be built; cargo's own messages are above".into());
     }
     Ok(root().join("target/release/eigensync"))

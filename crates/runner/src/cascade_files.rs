@@ -12,10 +12,10 @@ use std::io::BufWriter;
 
 use clustering::{CascadeTree, ClusterRule, TreeCluster};
 
-use crate::files::number;
-use crate::place::Folder;
-use crate::plan::Plan;
-use crate::problem::Result;
+use experiment::Plan;
+use results_folder::Folder;
+use user::Result;
+use user::text::number;
 
 const COLUMNS: [&str; 15] = [
     "cluster",

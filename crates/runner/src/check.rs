@@ -8,12 +8,11 @@ use dynamics::{Adaptive, AdaptiveOrder, Method};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::drawing;
-use crate::output::one_line;
-use crate::plan::{Memory, Plan};
 use crate::record::parameters;
-use crate::spec::{FigureKind, MatrixKind};
 use crate::trial;
+use experiment::spec::{FigureKind, MatrixKind};
+use experiment::{Memory, Plan};
+use user::text::one_line;
 
 /// What is unusual about a network, before anything is computed.
 pub fn doubts(plan: &Plan) -> Vec<Warning> {
@@ -203,6 +202,7 @@ struct CheckedNetwork {
 }
 
 impl Checked {
+    /// Of a plan, after a short trial.
     pub fn of(plan: &Plan) -> Self {
         let network = &plan.study.network;
         Self {

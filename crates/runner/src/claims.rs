@@ -13,17 +13,21 @@ use number::Number;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::output::one_line;
-use crate::plan::Plan;
-use crate::problem::{Problem, Result};
-use crate::spec::{ClaimSpec, OneOrMany, Quantity};
+use experiment::Plan;
+use experiment::spec::{ClaimSpec, OneOrMany, Quantity};
+use user::text::one_line;
+use user::{Problem, Result};
 
 /// A judged claim.
 #[derive(Clone, Debug, Serialize)]
 pub struct Claim {
+    /// Its key in the file.
     pub name: String,
+    /// Where its settings and expected values come from.
     pub source: String,
+    /// What the source says.
     pub paper: Value,
+    /// What was obtained.
     pub obtained: Value,
     /// Standard error of the obtained number; for an onset the standard deviation over seeds, or half
     /// a step of the sweep if that is larger.
@@ -37,7 +41,9 @@ pub struct Claim {
     /// they are not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refined: Option<bool>,
+    /// How near that must be, in words.
     pub tolerance: String,
+    /// Whether it is.
     pub verdict: Verdict,
     /// Why the tolerance is what it is, why a difference is known, or why there is no verdict.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -62,7 +68,9 @@ impl Claim {
 /// Runs that came to their end, at the ε of a claim at which they are fewest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Runs {
+    /// Runs that came to their end.
     pub bounded: usize,
+    /// All runs.
     pub of: usize,
 }
 
@@ -75,10 +83,13 @@ impl fmt::Display for Runs {
     }
 }
 
+/// What becomes of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Verdict {
+    /// What was obtained is what is claimed.
     #[serde(rename = "holds")]
     Holds,
+    /// It is not.
     #[serde(rename = "differs")]
     Differs,
     /// The file says why this cannot agree.

@@ -4,7 +4,6 @@
 mod sweep;
 
 use std::cell::RefCell;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use dynamics::lyapunov::Times;
@@ -14,25 +13,27 @@ use eigensync::{Compute, Error, Simulated, StepEffect, Study, Sweep, Warning};
 use msf::MasterStability;
 use spectra::Spectrum;
 
-use crate::journal::{Journal, Key, Kind, is_worth_keeping};
-use crate::plan::{Node, Plan};
-use crate::progress::{Ahead, Stages};
 use crate::warning;
+use experiment::{Node, Plan};
+use journal::{Journal, Kind, is_worth_keeping};
+use user::Stages;
+
+use crate::Work;
 
 /// The master stability functions computed so far: experiments that ask for the same one share it.
 #[derive(Default)]
 pub struct Curves(Vec<(Node, msf::Request, MasterStability)>);
 
-/// Computes the study of a plan, with progress on the terminal.
+/// Computes the study of a plan, and tells whoever watches.
 pub struct Kept<'a> {
-    plan: &'a Plan,
+    work: &'a Work<'a>,
     curves: RefCell<&'a mut Curves>,
-    journal: &'a Journal,
 }
 
 impl<'a> Kept<'a> {
-    pub fn new(plan: &'a Plan, curves: &'a mut Curves, journal: &'a Journal) -> Self {
-        Self { plan, curves: RefCell::new(curves), journal }
+    /// Shares the curves with other experiments.
+    pub fn new(work: &'a Work<'a>, curves: &'a mut Curves) -> Self {
+        Self { work, curves: RefCell::new(curves) }
     }
 }
 
@@ -41,23 +42,23 @@ impl Compute for Kept<'_> {
 
     /// Computed unless an earlier plan, or an earlier run, had the same node and request.
     fn curve(&self, study: &Study) -> Result<MasterStability, Error> {
-        let Self { plan, journal, .. } = self;
+        let &Work { plan, journal, stages } = self.work;
         let mut curves = self.curves.borrow_mut();
         let same = |known: &&(Node, msf::Request, MasterStability)| {
             known.0 == plan.node && known.1 == study.msf
         };
         let known = curves.0.iter().find(same).map(|(_, _, curve)| curve.clone());
         let is_known = known.is_some();
-        let key = Key::of(Kind::Curve, &(&plan.node, &study.msf));
+        let key = journal.key(Kind::Curve, &(&plan.node, &study.msf));
         let curve = journal.once((Kind::Curve, key), || {
-            let compute = |progress: Progress<'_>, ahead: Ahead<'_>| {
+            let compute = |progress: Progress<'_>, ahead: &dyn Fn(u64, &str)| {
                 let steps = study.msf.times.steps();
                 let advance = |zero: msf::Advance| {
                     ahead(zero.exponents_ahead as u64 * steps, &refined(zero));
                 };
                 msf::master_stability_with(&study.node, &study.msf, progress, &advance)
             };
-            known.map_or_else(|| plan.stages.extended("msf", study.msf_steps(), compute), Ok)
+            known.map_or_else(|| stages.extended("msf", study.msf_steps(), compute), Ok)
         });
         let curve = curve.map_err(Error::Curve)?;
         if !is_known {
@@ -68,17 +69,14 @@ impl Compute for Kept<'_> {
 
     /// Kept where writing it costs little beside computing it again.
     fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
-        let Self { plan, journal, .. } = self;
-        let key = Key::of(Kind::Spectrum, &(matrix(plan), request));
+        let &Work { plan, journal, stages } = self.work;
+        let key = journal.key(Kind::Spectrum, &(matrix(plan), request));
         if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
             return Ok(spectrum);
         }
         let started = Instant::now();
-        let spectrum = plan.stages.told("spectrum", |tell| {
-            spectra::leading_modes_with(&study.matrix, request, &|advance| {
-                tell(&advanced(advance));
-                ControlFlow::Continue(())
-            })
+        let spectrum = stages.told("spectrum", |tell| {
+            spectra::leading_modes_with(&study.matrix, request, &|advance| tell(&advanced(advance)))
         });
         let spectrum = spectrum.map_err(Error::Spectrum)?;
         let bytes = 8.0 * spectrum.n_modes() as f64 * study.network.n_nodes() as f64;
@@ -89,7 +87,7 @@ impl Compute for Kept<'_> {
     }
 
     fn runs(&self, _study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
-        sweep::runs(self.plan, sweep, self.journal).map_err(Error::Sweep)
+        sweep::runs(self.work, sweep).map_err(Error::Sweep)
     }
 
     fn step_effects(
@@ -98,7 +96,7 @@ impl Compute for Kept<'_> {
         sweep: &Sweep,
         simulated: &Simulated,
     ) -> Result<Vec<StepEffect>, Error> {
-        sweep::effects_of_step(self.plan, sweep, simulated, self.journal).map_err(Error::Sweep)
+        sweep::effects_of_step(self.work, sweep, simulated).map_err(Error::Sweep)
     }
 
     fn stage<T>(
@@ -108,13 +106,13 @@ impl Compute for Kept<'_> {
         work: impl FnOnce(Progress<'_>) -> T,
     ) -> T {
         match n_steps {
-            Some(n_steps) => self.plan.stages.measured(name, n_steps, work),
-            None => self.plan.stages.unmeasured(name, || work(dynamics::QUIET)),
+            Some(n_steps) => self.work.stages.measured(name, n_steps, work),
+            None => self.work.stages.unmeasured(name, || work(dynamics::QUIET)),
         }
     }
 
     fn warn(&self, warning: &Warning) {
-        warning::say(&self.plan.id, warning);
+        warning::say(&self.work.plan.id, warning, &**self.work.stages.watch());
     }
 }
 
@@ -126,7 +124,7 @@ pub fn reach(
     journal: &Journal,
 ) -> std::result::Result<f64, msf::MsfError> {
     const SEED: u64 = 1;
-    let key = Key::of(Kind::Look, &(node, times, SEED));
+    let key = journal.key(Kind::Look, &(node, times, SEED));
     journal.once((Kind::Look, key), || {
         let look = |progress: Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
         stages.measured("first look at the msf", 16 * times.steps(), look)

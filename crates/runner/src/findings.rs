@@ -6,33 +6,41 @@ use eigensync::numbers::plain;
 use eigensync::{Error, Findings, Warning, curve_by, find_by};
 use msf::{MasterStability, MsfError};
 
+use crate::Work;
 use crate::check;
 use crate::computed::{Curves, Kept};
-use crate::journal::Journal;
-use crate::plan::Plan;
-use crate::problem::{Problem, Result};
 use crate::warning::kept;
+use experiment::Plan;
+use user::{Problem, Result};
 
 /// Runs a plan: MSF, spectrum, prediction, simulation.
-pub fn find(plan: &Plan, curves: &mut Curves, journal: &Journal) -> Result<Findings> {
+///
+/// # Errors
+/// What keeps it from being done, with the file and the way out.
+pub fn find(work: &Work<'_>, curves: &mut Curves) -> Result<Findings> {
+    let plan = work.plan;
     let before = [check::doubts(plan), plan.doubts.clone()].concat();
-    let computing = Kept::new(plan, curves, journal);
+    let computing = Kept::new(work, curves);
     let mut findings =
         find_by(&plan.study, &before, &computing).map_err(|error| failed(plan, &error))?;
     if plan.study.sweep.is_none() {
-        journal.tell_taken();
+        work.journal.tell_taken();
     }
     findings.warnings = findings.warnings.iter().map(kept).collect();
     Ok(findings)
 }
 
 /// Λ(σ) of a plan alone, with what must be known beside it.
-pub fn curve(plan: &Plan, journal: &Journal) -> Result<(MasterStability, Vec<Warning>)> {
+///
+/// # Errors
+/// As [`find`].
+pub fn curve(work: &Work<'_>) -> Result<(MasterStability, Vec<Warning>)> {
+    let plan = work.plan;
     let mut curves = Curves::default();
-    let computing = Kept::new(plan, &mut curves, journal);
+    let computing = Kept::new(work, &mut curves);
     let (msf, warnings) =
         curve_by(&plan.study, &plan.doubts, &computing).map_err(|error| failed(plan, &error))?;
-    journal.tell_taken();
+    work.journal.tell_taken();
     Ok((msf, warnings))
 }
 

@@ -1,90 +1,28 @@
-//! `eigensync`: experiment files in, results folders out.
+//! From a plan to its results folder: [`findings`] has the library do what is planned ([`computed`] what
+//! takes long, unless an earlier run has left it in the journal), [`claims`] judges, [`results`] writes
+//! ([`record`] the numbers, `report` the words), and [`run`](fn@run) is all of it for one experiment. [`check`]
+//! says beforehand what a plan will do and cost.
 //!
-//! The stages of a run stand in this order: `load` reads what the file says (`spec`), `plan` makes
-//! of it what will be done, `findings` does it, `claims` judges it, `results` writes it (`record`,
-//! `drawing`, `report`), `compare` holds it against the golden outputs, `closing` says how it ended. Only this crate knows paths, clocks
-//! and terminals; it knows no numerical method.
+//! Nothing here speaks to a terminal: whoever runs an experiment brings a [`user::Watch`].
 
 mod cascade_files;
-mod check;
-mod claims;
-mod cli;
-mod closing;
-mod compare;
-mod computed;
-mod curve;
-mod drawing;
-mod files;
-mod findings;
-mod hashes;
-mod journal;
-mod list;
-mod load;
-mod machine;
+pub mod check;
+pub mod claims;
+pub mod computed;
+pub mod findings;
 mod membership;
-mod options;
-mod output;
-mod overview;
-mod place;
-mod plan;
-mod predict;
-mod problem;
-mod progress;
-mod provenance;
-mod record;
+pub mod overview;
+pub mod program;
+pub mod provenance;
+pub mod record;
 mod report;
-mod results;
+pub mod results;
 mod run;
-mod signals;
-mod spec;
-mod table;
+pub mod table;
 mod trial;
-mod warning;
+pub mod warning;
+mod work;
 
-use std::path::Path;
-use std::process::ExitCode;
-
-use clap::Parser;
-
-use crate::output::{complain, say};
-
-/// The command, from the arguments of the process to its exit status.
-pub fn main() -> ExitCode {
-    // A panic is a fault of ours; said like all else, so that it cannot fail for want of a terminal.
-    std::panic::set_hook(Box::new(|panic| complain!("error: a fault of eigensync: {panic}")));
-    let run = |cli| signals::watch().and_then(|()| cli::run(cli));
-    let status = match cli::Cli::try_parse() {
-        Ok(cli) => match run(cli) {
-            Ok(true) => 0,
-            Ok(false) => 1,
-            Err(problem) => {
-                complain!("error: {problem}");
-                2
-            }
-        },
-        Err(answer) => told(&answer),
-    };
-    if !output::arrived() {
-        complain!("error: standard output cannot be written to, and what was said on it is lost");
-        return ExitCode::from(2);
-    }
-    ExitCode::from(status)
-}
-
-/// Help, version, or what is wrong with the command line, and the exit status.
-fn told(answer: &clap::Error) -> u8 {
-    let text = answer.render().to_string();
-    if answer.use_stderr() {
-        complain!("{}", text.trim_end());
-    } else {
-        say!("{}", text.trim_end());
-    }
-    u8::try_from(answer.exit_code()).unwrap_or(2)
-}
-
-/// Whether a text is an experiment file, or what is wrong with it in the words that a user sees.
-/// Nothing that it names is looked for.
-pub fn check_syntax(text: &str) -> Result<(), String> {
-    let parsed = load::parse(text, Path::new("experiment.toml"));
-    parsed.map(drop).map_err(|problem| problem.to_string())
-}
+pub use report::REPORT;
+pub use run::{Done, Plans, plans, run};
+pub use work::Work;

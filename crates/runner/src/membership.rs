@@ -4,11 +4,11 @@
 use clustering::CascadeTree;
 
 use crate::cascade_files::numbered;
-use crate::files::number;
-use crate::place::Folder;
-use crate::plan::Plan;
-use crate::problem::Result;
 use eigensync::Findings;
+use experiment::Plan;
+use results_folder::Folder;
+use user::Result;
+use user::text::number;
 
 /// With more rows the table is left out: `clusters.csv` says the same in one row a node.
 const MOST_ROWS: usize = 2_000_000;

@@ -14,8 +14,9 @@ use comfy_table::presets::NOTHING;
 use msf::{End, Interval, Isolated, MasterStability};
 use spectra::Verification;
 
-use crate::plan::Plan;
 use crate::provenance::peak_memory;
+use experiment::Plan;
+use user::Stages;
 
 /// Modes and states shown; the results folder has them all.
 const SHOWN: usize = 12;
@@ -173,8 +174,8 @@ fn cascade(plan: &Plan, findings: &Findings) -> String {
 }
 
 /// Seconds by stage, and memory where the system tells it.
-pub fn cost(plan: &Plan) -> String {
-    let stages = plan.stages.took().into_iter();
+pub fn cost(stages: &Stages) -> String {
+    let stages = stages.took().into_iter();
     let stages = stages.map(|(name, time)| format!("{name} {:.1} s", time.as_secs_f64()));
     let mut text = stages.collect::<Vec<_>>().join(", ");
     if let Some(bytes) = peak_memory() {

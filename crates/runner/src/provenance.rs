@@ -5,19 +5,23 @@ use std::time::Duration;
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use crate::hashes::plan_hash;
-use crate::journal::Held;
-use crate::place::Origin;
-use crate::plan::Plan;
+use experiment::Plan;
+use experiment::plan_hash;
+use journal::Held;
+
+use crate::program;
+use results_folder::Origin;
 
 /// The `provenance` of a summary. The only part of it that may differ between two equal runs.
 #[derive(Serialize)]
 pub struct Provenance {
+    /// Version of eigensync.
     pub version: &'static str,
     /// Commit of eigensync that the program was built from; `+` when files were changed since.
     pub commit: &'static str,
     /// Command and file that the results were made from.
     pub origin: Origin,
+    /// Seed of the experiment.
     pub seed: u64,
     /// SHA-256 of the experiment as parsed, its shortening, and the hash of the network's links.
     pub plan_hash: String,
@@ -25,9 +29,11 @@ pub struct Provenance {
     pub host_features: Vec<&'static str>,
     /// Those that were used.
     pub instruction_set: &'static str,
+    /// How many there were.
     pub threads: usize,
     /// What an earlier run had computed, which ended before its results were written.
     pub taken_over: Held,
+    /// Seconds from beginning to end.
     pub wall_time_s: f64,
     /// Of this, what each stage took.
     pub stages_s: IndexMap<String, f64>,
@@ -46,8 +52,8 @@ impl Provenance {
     ) -> Self {
         let seconds = |time: Duration| (time.as_secs_f64() * 1e3).round() / 1e3;
         Self {
-            version: env!("CARGO_PKG_VERSION"),
-            commit: env!("EIGENSYNC_COMMIT"),
+            version: program::VERSION,
+            commit: program::COMMIT,
             origin: origin.clone(),
             seed: plan.experiment.seed,
             plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),

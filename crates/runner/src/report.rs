@@ -5,13 +5,13 @@
 use std::fmt::Write;
 
 use crate::claims::Claim;
-use crate::compare::Comparison;
-use crate::output::{one_line, printable};
 use crate::overview;
-use crate::plan::Plan;
 use crate::table;
 use eigensync::Findings;
 use eigensync::Warning;
+use experiment::Plan;
+use golden::Comparison;
+use user::text::{one_line, printable};
 
 /// Its name in the results folder.
 pub const REPORT: &str = "report.txt";

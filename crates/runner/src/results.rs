@@ -9,20 +9,19 @@ use dynamics::{Errors, Estimate};
 use msf::MasterStability;
 use serde_json::Value;
 
+use crate::Work;
 use crate::cascade_files;
 use crate::claims::Claim;
-use crate::compare::{self, Comparison};
-use crate::drawing;
-use crate::files::number;
-use crate::journal::Held;
 use crate::membership;
-use crate::place::{Folder, Place};
-use crate::plan::Plan;
-use crate::problem::{Problem, Result};
 use crate::record::{Summary, summarise};
 use crate::report::{self, REPORT};
-use crate::spec::FigureKind;
 use crate::warning;
+use experiment::Plan;
+use experiment::spec::FigureKind;
+use golden::Comparison;
+use results_folder::{Folder, Place};
+use user::text::number;
+use user::{Problem, Result};
 
 /// Up to this many nodes all computed eigenvectors are written as text.
 const EIGENVECTOR_TABLE: usize = 5000;
@@ -31,6 +30,7 @@ pub const EXPERIMENT: &str = "experiment.toml";
 
 /// Results that are in place.
 pub struct Written {
+    /// Where they are.
     pub place: PathBuf,
     /// With the golden output, where there is one.
     pub comparison: Option<Comparison>,
@@ -38,19 +38,21 @@ pub struct Written {
 
 /// Writes the results folder; `took` says how long the run has taken when asked, `golden` is the
 /// golden summary. Numbers come first, and whatever becomes of the figure costs none of them.
+///
+/// # Errors
+/// Where a file cannot be written, or the folder not be put in place.
 pub fn write(
-    plan: &Plan,
+    &Work { plan, journal, stages }: &Work<'_>,
     findings: &Findings,
     claims: Vec<Claim>,
     golden: Option<&Value>,
-    (took, taken): (impl FnOnce() -> Duration, Held),
+    took: &dyn Fn() -> Duration,
     place: Place,
 ) -> Result<Written> {
-    let stages = &plan.stages;
     let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
-    let tell = |warning: &Warning| warning::say(&plan.id, warning);
+    let tell = |warning: &Warning| warning::say(&plan.id, warning, &**stages.watch());
     let mut warnings = eigensync::Warnings::after(&[], &tell);
     picture.warnings.into_iter().for_each(|message| warnings.add("figure", message));
     let svg = picture.svg.map(String::into_bytes);
@@ -64,8 +66,13 @@ pub fn write(
     for (name, content) in &plan.kept {
         folder.write(name, content)?;
     }
-    let mut summary =
-        summarise(plan, findings, claims, (took(), &stages.took()), (taken, place.origin()));
+    let mut summary = summarise(
+        plan,
+        findings,
+        claims,
+        (took(), &stages.took()),
+        (journal.taken(), place.origin()),
+    );
     summary.warnings.extend(warnings.into_list().iter().map(warning::kept));
     let failed = |error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
@@ -74,7 +81,7 @@ pub fn write(
     let comparison = match golden {
         Some(golden) => {
             let value = serde_json::to_value(&summary).map_err(failed)?;
-            Some(compare::compare_summaries(golden, &value))
+            Some(golden::compare_summaries(golden, &value))
         }
         None => None,
     };

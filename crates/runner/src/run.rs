@@ -1,112 +1,95 @@
-//! `eigensync run`: experiments one after another, each to its results folder, and how all of it ended.
+//! One experiment after another, each from its plan to its place.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use eigensync::Findings;
+use experiment::Plan;
+use golden::Comparison;
+use results_folder::{Place, id};
 use serde_json::Value;
+use user::text::shown;
+use user::{Problem, Result, Stages, Watch};
 
-use dynamics::InstructionSet;
-
-use crate::claims;
-use crate::closing::{self, Outcome};
-use crate::compare;
+use crate::claims::{self, Claim};
 use crate::computed::Curves;
-use crate::findings;
-use crate::journal::Journal;
-use crate::output::{say, shown, tell};
-use crate::overview;
-use crate::place::Place;
-use crate::plan::{self, Plan};
-use crate::problem::Result;
-use crate::progress;
-use crate::results;
+use crate::results::{self, Written};
+use crate::{Work, findings};
 
-/// How experiments are run.
-pub struct Options {
-    pub quick: bool,
-    pub fresh: bool,
-    pub instruction_set: Option<InstructionSet>,
-    pub results: PathBuf,
-    pub golden: PathBuf,
+/// An experiment that has run.
+pub struct Done {
+    /// Where its results are.
+    pub place: PathBuf,
+    /// What was found.
+    pub findings: Findings,
+    /// Its claims, judged.
+    pub claims: Vec<Claim>,
+    /// What differs from the golden output, where there is one.
+    pub comparison: Option<Comparison>,
+    /// How long it took, reading and preparation among it.
+    pub took: Duration,
 }
 
-/// Runs experiments; the result says whether all that could be decided holds. All files are planned
-/// before any is run, so that a slip in the last one shows at once.
-pub fn run(files: &[PathBuf], options: &Options) -> Result<bool> {
-    let started = Instant::now();
-    let (mut plans, left_out) = plan::all(files, options.quick)?;
-    for plan in &mut plans {
-        plan.study.msf.instruction_set =
-            options.instruction_set.unwrap_or(plan.study.msf.instruction_set);
-    }
-    let goldens = plans
-        .iter()
-        .map(|plan| compare::golden_summary(&options.golden.join(&plan.id)))
-        .collect::<Result<Vec<Option<Value>>>>()?;
-    let reserve = |plan: &Plan| {
-        Place::reserve(&options.results, &plan.id, ("run", &plan.file), options.quick)
-    };
-    let places = plans.iter().map(reserve).collect::<Result<Vec<Place>>>()?;
-    let (mut curves, mut outcomes) = (Curves::default(), Vec::new());
-    let mut suite = progress::Suite::new(work(&plans));
-    for ((plan, place), golden) in plans.iter().zip(places).zip(&goldens) {
-        suite.begin();
-        let (outcome, found, took) = one(plan, place, golden.as_ref(), &mut curves, options.fresh)?;
-        let place = shown(&outcome.place);
-        tell!("{}: {place} in {}{}", plan.id, seconds(took), suite.done());
-        if let [_] = &plans[..] {
-            say!("{}\n{}\n", overview::of(plan, &found), overview::cost(plan));
+/// Plans and the stages that they took.
+pub type Plans = Vec<(Plan, Stages)>;
+
+/// Plans all files, before any is run, so that a slip in the last one shows at once; two of one name
+/// would overwrite each other's results. Experiments whose data are not here come apart, as the problems
+/// that say so.
+///
+/// # Errors
+/// What is wrong with the first file with which anything is.
+pub fn plans(
+    files: &[PathBuf],
+    quick: bool,
+    watch: &Arc<dyn Watch>,
+) -> Result<(Plans, Vec<Problem>)> {
+    let (mut plans, mut left_out): (Plans, _) = (Vec::new(), Vec::new());
+    for file in files {
+        let id = id(file)?;
+        let stages = Stages::new(&id, watch.clone());
+        match experiment::plan(file, &id, quick, &stages) {
+            Ok(plan) => plans.push((plan, stages)),
+            Err(problem) if problem.is_left_out() => left_out.push(problem),
+            Err(problem) => return Err(problem),
         }
-        outcomes.push(outcome);
     }
-    let left_out: Vec<String> = left_out.iter().map(ToString::to_string).collect();
-    say!("{}", closing::screen(&outcomes, &left_out, &seconds(started.elapsed())));
-    Ok(outcomes.iter().all(Outcome::holds))
+    for (position, (later, _)) in plans.iter().enumerate() {
+        if let Some((earlier, _)) = plans[..position].iter().find(|(plan, _)| plan.id == later.id) {
+            let message = format!(
+                "has the same name as {}, and both would write the results folder {}",
+                shown(&earlier.file),
+                later.id
+            );
+            return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
+        }
+    }
+    Ok((plans, left_out))
 }
 
-/// Runs one experiment; the time that it took comes last.
-fn one(
-    plan: &Plan,
+/// Runs one experiment, and puts its results in their place.
+///
+/// # Errors
+/// What kept it from being finished, with what is kept of it.
+pub fn run(
+    work: &Work<'_>,
     place: Place,
     golden: Option<&Value>,
     curves: &mut Curves,
-    fresh: bool,
-) -> Result<(Outcome, eigensync::Findings, Duration)> {
+) -> Result<Done> {
     let started = Instant::now();
-    let planned = plan.stages.total();
+    let planned = work.stages.total();
     let took = || planned + started.elapsed();
-    let journal = Journal::open(place.unfinished(), &plan.id, fresh)?;
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
-    let (found, claims, written) = journal.until(|| {
-        let found = findings::find(plan, curves, &journal)?;
-        let claims = claims::judge(plan, &found)?;
+    let (findings, claims, written) = work.journal.until(|| {
+        let findings = findings::find(work, curves)?;
+        let claims = claims::judge(work.plan, &findings)?;
         let place = place.take().expect("results are written once");
-        let written =
-            results::write(plan, &found, claims.clone(), golden, (took, journal.taken()), place)?;
-        Ok((found, claims, written))
+        let written = results::write(work, &findings, claims.clone(), golden, &took, place)?;
+        Ok((findings, claims, written))
     })?;
-    if let Some(looked) = eigensync::step_effects_looked_at(&found.step_effects) {
-        tell!("{}: {looked}", plan.id);
-    }
-    let results::Written { place, comparison } = written;
-    Ok((Outcome { id: plan.id.clone(), place, claims, comparison }, found, took()))
-}
-
-/// How much work each plan is beside the others: steps of nodes and of tangents. A curve that several
-/// ask for is computed for the first.
-fn work(plans: &[Plan]) -> Vec<f64> {
-    let of = |(position, plan): (usize, &Plan)| {
-        let is_shared =
-            plans[..position].iter().any(|p| p.node == plan.node && p.study.msf == plan.study.msf);
-        let curve = if is_shared { 0.0 } else { plan.study.msf_steps() as f64 };
-        let nodes = plan.study.network.n_nodes() as f64;
-        curve + plan.study.sweep.as_ref().map_or(0.0, |sweep| sweep.steps() as f64 * nodes)
-    };
-    plans.iter().enumerate().map(of).collect()
-}
-
-/// A time as it is said.
-pub fn seconds(time: Duration) -> String {
-    format!("{:.1} s", time.as_secs_f64())
+    let Written { place, comparison } = written;
+    Ok(Done { place, findings, claims, comparison, took: took() })
 }

@@ -7,7 +7,7 @@ use eigensync::numbers::{four_digits, two_digits};
 use serde_json::Value;
 
 use crate::claims::Claim;
-use crate::output::one_line;
+use user::text::one_line;
 
 /// Lists with more entries are abridged.
 const LONG_LIST: usize = 8;

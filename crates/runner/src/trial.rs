@@ -9,7 +9,7 @@ use std::time::Instant;
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{DynamicsError, Method, Observables, Outcome, Replica, Schedule, Simulation};
 
-use crate::plan::Plan;
+use experiment::Plan;
 
 /// Node steps of a trial; a large network takes the twenty samples that there are at least.
 const NODE_STEPS: f64 = 2e6;

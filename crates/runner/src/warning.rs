@@ -2,11 +2,12 @@
 
 use eigensync::Warning;
 
-use crate::output::{one_line, readable, tell};
+use user::Watch;
+use user::text::{one_line, readable};
 
-/// Says a warning of an experiment on standard error.
-pub fn say(id: &str, warning: &Warning) {
-    tell!("warning: {id}: {}", readable(&one_line(&warning.message)));
+/// Says a warning of an experiment to whoever watches it.
+pub fn say(id: &str, warning: &Warning, watch: &dyn Watch) {
+    watch.warned(&format!("{id}: {}", readable(&one_line(&warning.message))));
 }
 
 /// A warning as it is kept, in one line of a length that is read.

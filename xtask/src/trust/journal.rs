@@ -1,5 +1,5 @@
 //! Finished replicas in the journal of a run that was killed, read from its bytes and not by the
-//! program under trial. `crates/runner/src/journal/record.rs` says how a record is laid out; a kill
+//! program under trial. `crates/journal/src/record.rs` says how a record is laid out; a kill
 //! tears the last one and no other, so that a record is whole where it fits the file.
 
 use std::collections::BTreeSet;

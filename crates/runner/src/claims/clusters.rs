@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 
 use super::obtained::{not_predicted, nothing_left};
 use super::{Answer, Judge, Judged};
-use crate::plan::nodes_named;
-use crate::problem::Result;
-use crate::spec::{Name, Quantity};
+use experiment::nodes_named;
+use experiment::spec::{Name, Quantity};
+use user::Result;
 
 /// Clusters without an order.
 type Clusters = BTreeSet<BTreeSet<usize>>;

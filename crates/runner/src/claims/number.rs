@@ -12,7 +12,7 @@ use std::fmt;
 use serde_json::{Value, json};
 
 use super::Answer;
-use crate::spec::Trend;
+use experiment::spec::Trend;
 
 /// A number may be so many standard errors off.
 const ERRORS: f64 = 2.0;

@@ -4,8 +4,8 @@ use serde_json::json;
 
 use super::number::{all, follows};
 use super::{Judge, Judged};
-use crate::problem::Result;
-use crate::spec::{OneOrMany, Trend};
+use experiment::spec::{OneOrMany, Trend};
+use user::Result;
 
 impl Judge<'_> {
     /// One number or a list of numbers.

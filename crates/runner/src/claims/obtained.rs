@@ -6,7 +6,7 @@ use eigensync::numbers::{four_digits, plain};
 use eigensync::{Agreement, End, Known, Predicted, Regions, Simulated};
 
 use super::{Judge, Number};
-use crate::spec::Quantity;
+use experiment::spec::Quantity;
 
 impl Judge<'_> {
     /// The numbers of the claim's quantity, one for each mode or ε.

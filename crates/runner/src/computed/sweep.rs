@@ -10,22 +10,22 @@ use dynamics::{
 };
 
 use super::matrix;
-use crate::journal::{Journal, Key, Kind};
-use crate::plan::Plan;
-use crate::signals;
+use crate::Work;
+use journal::{Journal, Key, Kind};
 
 /// How long a batch runs before it leaves its states, and between one time and the next: what a kill
 /// costs, and long against the time that writing takes.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
 
 /// All replicas of the sweep of a plan.
-pub fn runs(plan: &Plan, sweep: &Sweep, journal: &Journal) -> Result<Vec<Run>, DynamicsError> {
+pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
+    let &Work { plan, journal, stages } = work;
     let simulation = plan.study.simulation(sweep, sweep.schedule);
     let replicas = sweep.replicas();
     let shared = (matrix(plan), &plan.node, sweep.method, sweep.schedule);
-    let shared = Key::of(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
+    let shared = journal.key(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
     let key =
-        |replica: &Replica| Key::of(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
+        |replica: &Replica| journal.key(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
     let keys: Vec<Key> = replicas.iter().map(key).collect();
     journal.expect_replicas(replicas.len());
     let take = |key: &Key| journal.take::<Outcome>(Kind::Replica, key);
@@ -35,16 +35,10 @@ pub fn runs(plan: &Plan, sweep: &Sweep, journal: &Journal) -> Result<Vec<Run>, D
     let start = |&at: &usize| Start { replica: replicas[at], from: from(&keys[at]) };
     let starts: Vec<Start> = left.iter().map(start).collect();
     journal.tell_taken();
-    let ran = plan.stages.resumed("sweep", sweep.steps(), steps_done(sweep, &starts), |progress| {
-        let following =
-            Following::new(journal, left.iter().map(|&at| keys[at]).collect(), progress);
-        signals::while_running(|| {
-            let ran = simulation.run_observed(starts, &following);
-            if ran == Err(DynamicsError::Cancelled) {
-                signals::leave();
-            }
-            ran
-        })
+    let steps = (sweep.steps(), steps_done(sweep, &starts));
+    let ran = stages.resumed("sweep", steps, |progress| {
+        let keys = left.iter().map(|&at| keys[at]).collect();
+        simulation.run_observed(starts, &Following::new(journal, keys, progress))
     });
     for (at, run) in left.into_iter().zip(ran?) {
         outcomes[at] = Some(run.outcome);
@@ -58,11 +52,11 @@ pub fn runs(plan: &Plan, sweep: &Sweep, journal: &Journal) -> Result<Vec<Run>, D
 
 /// What the step of the integrator does at some couplings of a sweep, all of it one piece of work.
 pub fn effects_of_step(
-    plan: &Plan,
+    work: &Work<'_>,
     sweep: &Sweep,
     simulated: &Simulated,
-    journal: &Journal,
 ) -> Result<Vec<StepEffect>, DynamicsError> {
+    let &Work { plan, journal, stages } = work;
     let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
     let bound = |replica: &Replica| {
         simulated.position(replica.epsilon).map_or(0.0, |position| simulated.bound(position))
@@ -70,13 +64,13 @@ pub fn effects_of_step(
     let replicas: Vec<(f64, u64, f64)> =
         probe.replicas.iter().map(|run| (run.epsilon, run.seed, bound(run))).collect();
     let of = (matrix(plan), &plan.node, sweep.method, probe.schedules, replicas);
-    let key = Key::of(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
+    let key = journal.key(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
     journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {
             let steps = probe.replicas.len() as u64 * schedule.steps();
             let simulation = plan.study.simulation(sweep, schedule);
             let run = |progress: Progress<'_>| simulation.run(&probe.replicas, progress);
-            plan.stages.measured("half step", steps, run)
+            stages.measured("half step", steps, run)
         };
         let [at_step, at_half] = probe.schedules.map(at);
         Ok(probe.effects(simulated, [&at_step?, &at_half?]))
@@ -128,9 +122,9 @@ impl<'a> Following<'a> {
 
 impl Observer for Following<'_> {
     fn advanced(&self, replicas: &[usize], steps: u64) -> Next {
-        let _ = (self.progress)(steps);
+        let wants_to_stop = (self.progress)(steps).is_break();
         let Batch { samples, looked } = &self.batches[replicas[0]];
-        if signals::is_stopping() {
+        if wants_to_stop {
             // One that has just begun has nothing to leave.
             let has_left = matches!(looked.swap(LEFT, Ordering::Relaxed), 0 | LEFT);
             return if has_left { Next::Stop } else { Next::Snapshot };
@@ -162,13 +156,15 @@ impl Observer for Following<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
 
     #[test]
     fn a_batch_leaves_its_states_once_it_has_run_for_a_minute() {
         let folder = tempfile::tempdir().unwrap();
-        let journal = Journal::open(folder.path(), "tiny", false).unwrap();
-        let keys = (0..3).map(|k| Key::of(Kind::Replica, &k)).collect();
+        let journal = Journal::open(folder.path(), "tiny", "program", false, Arc::new(())).unwrap();
+        let keys = (0..3).map(|k| journal.key(Kind::Replica, &k)).collect();
         let mut following = Following::new(&journal, keys, dynamics::QUIET);
         let snapshots = |following: &Following<'_>, batch: &[usize]| {
             let samples = 0..10 * BETWEEN_LOOKS;

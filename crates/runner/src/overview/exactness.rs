@@ -8,8 +8,8 @@ use std::fmt::Write;
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
 use super::{SHOWN, grouped};
-use crate::output::one_line;
-use crate::plan::Plan;
+use experiment::Plan;
+use user::text::one_line;
 
 /// Nodes shown of one cluster, and characters of the name of one.
 const NODES: usize = 8;

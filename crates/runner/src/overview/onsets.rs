@@ -7,11 +7,11 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 
 use super::{SHOWN, exactness::named};
-use crate::plan::Plan;
 use eigensync::Findings;
 use eigensync::numbers::with_error;
 use eigensync::numbers::{four_digits, two_digits};
 use eigensync::{End, Known, Seen, Simulated};
+use experiment::Plan;
 
 /// A cluster as it was predicted and seen.
 struct Row {

@@ -4,8 +4,8 @@
 use dynamics::NodeDynamics;
 use serde_json::{Value, json};
 
-use crate::plan::Plan;
-use crate::spec::NetworkSpec;
+use experiment::Plan;
+use experiment::spec::NetworkSpec;
 
 /// The resolved experiment; keys that have no effect in it are null.
 pub fn of(plan: &Plan) -> Value {

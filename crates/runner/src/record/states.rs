@@ -4,23 +4,28 @@ use clustering::{ClusterKind, ClusterLabel, ClusterRule, Coincidences, State, St
 use eigensync::{End, Findings, Seen};
 use serde::Serialize;
 
-use super::named;
-use crate::plan::Plan;
+use super::names::named;
+use experiment::Plan;
 
 /// Up to this many nodes a summary names the nodes of every cluster.
 const LISTED_NODES: usize = 5000;
 
+/// A predicted state.
 #[derive(Serialize)]
 pub struct StateRecord {
+    /// Its range of ε; no upper end for the first.
     pub epsilon: (f64, Option<f64>),
     /// Those unstable anywhere in the range, and how many are so at one ε of it: the least, the most.
     pub unstable_modes: Vec<usize>,
+    /// The least and the most that are unstable at one ε.
     pub n_unstable: (usize, usize),
     /// Number of clusters of two nodes or more, and of nodes in none.
     pub n_clusters: usize,
+    /// Nodes in no cluster.
     pub n_alone: usize,
     /// Of the clusters of two nodes or more.
     pub n_exact: usize,
+    /// Clusters that links do not keep equal.
     pub n_approximate: usize,
     /// How far apart nodes of an exact cluster may be in the unstable subspace.
     pub exact_tolerance: f64,
@@ -51,7 +56,9 @@ pub struct StateRecord {
 /// Runs of a sweep, and how many of them escaped.
 #[derive(Serialize)]
 pub struct RunsRecord {
+    /// All of them.
     pub runs: usize,
+    /// Those that escaped.
     pub escaped: usize,
 }
 
@@ -75,8 +82,11 @@ pub struct LabelRecord {
 /// How many clusters and nodes chance joined, and how many pairs it was expected to.
 #[derive(Serialize)]
 pub struct CoincidenceRecord {
+    /// Clusters of two nodes or more.
     pub n_clusters: usize,
+    /// Pairs found.
     pub found: usize,
+    /// Pairs expected.
     pub expected: f64,
 }
 

@@ -1,0 +1,102 @@
+//! Keys that would change nothing where they stand: whoever writes one expects something of it, and is
+//! told that it would not come.
+
+use super::Checker;
+use crate::spec::{FigureKind, Format, MethodKind, NetworkSpec};
+use user::Result;
+
+/// Keys of `[figure]` beside `kind`.
+const FIGURE_KEYS: [&str; 8] = [
+    "eigenvectors",
+    "letter",
+    "layout",
+    "panels",
+    "mark_modes",
+    "source_transitions",
+    "error_scale",
+    "spread",
+];
+
+impl Checker<'_> {
+    /// Refuses every key that has no effect.
+    pub(super) fn effects(&self) -> Result<()> {
+        self.of_figure()?;
+        self.of_file()?;
+        if let Some(sweep) = &self.experiment.sweep
+            && matches!(sweep.method, MethodKind::Rk4)
+        {
+            let reason = "the steps of rk4 are all `sweep.step` long; the adaptive methods, dopri5 \
+                          and dop853, have a tolerance";
+            self.without_effect("sweep", "tolerance", reason)?;
+        }
+        if self.experiment.sweep.is_none() && self.experiment.regions.is_some() {
+            let reason = "regions are compared at the couplings of a [sweep], and there is none";
+            return Err(self.problem("regions", format!("has no effect: {reason}")));
+        }
+        Ok(())
+    }
+
+    /// Refuses a key if it is written.
+    fn without_effect(&self, table: &str, key: &str, reason: &str) -> Result<()> {
+        let pointer = format!("/{}/{key}", table.replace('.', "/"));
+        if self.written.pointer(&pointer).is_none() {
+            return Ok(());
+        }
+        let message = format!("has no effect here: {reason}");
+        Err(self.problem(&format!("{table}.{key}"), message).hint("leave it out"))
+    }
+
+    fn of_figure(&self) -> Result<()> {
+        let kind = self.experiment.figure.kind;
+        let has_sweep = self.experiment.sweep.is_some();
+        let (used, reason): (&[&str], _) = match kind {
+            FigureKind::Sweep if has_sweep => (
+                &[
+                    "letter",
+                    "panels",
+                    "layout",
+                    "mark_modes",
+                    "source_transitions",
+                    "error_scale",
+                    "spread",
+                ],
+                "it is for figures of the kind \"matrices\"",
+            ),
+            FigureKind::Sweep => (
+                &["letter", "panels", "layout"],
+                "without a [sweep] the figure shows the network, the predicted states and Λ(σ)",
+            ),
+            FigureKind::Matrices => (
+                &["eigenvectors", "panels", "layout"],
+                "figures of the kind \"matrices\" have the network, eigenvectors and matrices, in \
+                 panels with letters of their own",
+            ),
+            FigureKind::Regions => (
+                &["panels"],
+                "figures of the kind \"regions\" show nodes at their places, and no more",
+            ),
+            FigureKind::None => (&[], "there is no figure"),
+        };
+        let unused = FIGURE_KEYS.iter().filter(|key| !used.contains(key));
+        unused.copied().try_for_each(|key| self.without_effect("figure", key, reason))
+    }
+
+    fn of_file(&self) -> Result<()> {
+        let NetworkSpec::File(spec) = &self.experiment.network else { return Ok(()) };
+        let table = "network.file";
+        if !matches!(spec.format(), Format::Npz | Format::Matlab) {
+            let reason = "files of this format hold one network; those of npz and matlab may hold \
+                          several matrices";
+            self.without_effect(table, "variable", reason)?;
+        }
+        if !matches!(spec.format(), Format::Graphml) {
+            self.without_effect(table, "attributes", "only files of graphml have attributes")?;
+        }
+        if matches!(spec.format(), Format::EdgeList | Format::Graphml) {
+            let reason = "files of this format hold links, not the rows and columns of a matrix";
+            self.without_effect(table, "block", reason)?;
+            self.without_effect(table, "rows", reason)?;
+        }
+        Ok(())
+    }
+}

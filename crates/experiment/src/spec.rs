@@ -1,0 +1,319 @@
+//! What an experiment file says: the keys, their units and their defaults. Nothing is checked here
+//! beyond types and names; [`crate::plan`] turns a specification into what will be done.
+//!
+//! All times are in model time units, all coupling strengths in units of the coupling matrix.
+
+mod claim;
+mod network;
+mod values;
+
+pub use claim::{ClaimSpec, OneOrMany, Quantity, Trend};
+use dynamics::Model;
+use eigensync::{Bound, Wanted};
+use indexmap::IndexMap;
+pub use network::{
+    CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RegionsSpec,
+    RowsSpec, StepSpec, SymmetriseSpec,
+};
+use serde::{Deserialize, Serialize};
+pub use values::{EvenGrid, Grid, Layout, Name, ThresholdSpec};
+
+/// An experiment: one network, one oscillator, one question.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// One line that says what the experiment shows.
+    #[serde(skip_serializing)]
+    pub title: String,
+    /// Where its settings and expected values come from.
+    #[serde(default, skip_serializing)]
+    pub source: String,
+    /// Seed of everything random. Replicas of a sweep use this seed and those that follow.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// Where the network comes from.
+    pub network: NetworkSpec,
+    /// Steps from what a file holds to a network: undirected, weights above zero, no self-loops.
+    #[serde(default)]
+    pub prepare: Vec<StepSpec>,
+    /// Which nodes belong together.
+    pub groups: Option<GroupsSpec>,
+    /// Thresholds of the analysis of regions.
+    pub regions: Option<RegionsSpec>,
+    /// `[oscillator.NAME]` with its parameters; those left out have the defaults of the literature.
+    pub oscillator: Model,
+    /// The coupling matrix and the coupling function.
+    pub coupling: CouplingSpec,
+    /// Which modes, by which solver.
+    #[serde(default)]
+    pub spectrum: SpectrumSpec,
+    /// The master stability function.
+    pub msf: MsfSpec,
+    /// What makes a cluster.
+    #[serde(default)]
+    pub prediction: PredictionSpec,
+    /// Without it the experiment only predicts.
+    pub sweep: Option<SweepSpec>,
+    /// How the figure looks.
+    #[serde(default)]
+    pub figure: FigureSpec,
+    /// What the source says, by name.
+    #[serde(default, skip_serializing)]
+    pub claims: IndexMap<String, ClaimSpec>,
+}
+
+/// `[coupling]`: the coupling matrix W and the coupling function H.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingSpec {
+    /// Which coupling matrix.
+    pub matrix: MatrixKind,
+    /// Component read from the driving node.
+    pub from: String,
+    /// Component whose equation it enters.
+    pub to: String,
+}
+
+/// How weights become couplings.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
+pub enum MatrixKind {
+    /// w_ij = a_ij.
+    Laplacian,
+    /// w_ij = a_ij / k_i.
+    Normalized,
+}
+
+/// `[spectrum]`: which modes, by which solver.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpectrumSpec {
+    /// By default all of a network that is small enough, else `"auto"`.
+    pub modes: Option<Wanted>,
+    /// Which solver.
+    pub solver: SolverKind,
+    /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
+    pub tolerance: Option<f64>,
+}
+
+/// Who finds the modes.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SolverKind {
+    /// Chosen from the network: dense, ARPACK, shift-invert or Chebyshev filters.
+    #[default]
+    Auto,
+    /// All modes by faer.
+    Dense,
+    /// ARPACK, asked again until none is missing.
+    Arpack,
+    /// Lanczos and Chebyshev filters.
+    Chebyshev,
+    /// A factorisation, and its inertia.
+    ShiftInvert,
+}
+
+/// `[msf]`: the master stability function.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MsfSpec {
+    /// Values of the generic coupling strength σ, from zero or above.
+    pub sigma: Grid,
+    /// Step of the integrator.
+    #[serde(default = "step")]
+    pub step: f64,
+    /// Time before the averages begin.
+    #[serde(default = "thousand")]
+    pub transient: f64,
+    /// Time of the average behind each point of the curve.
+    #[serde(default = "hundred_thousand")]
+    pub average: f64,
+    /// Interval between renormalisations of the tangent vectors.
+    #[serde(default = "half")]
+    pub renormalise: f64,
+    /// Standard error at which a zero of Λ is known well enough, relative to it.
+    #[serde(default = "per_mille")]
+    pub relative_error: f64,
+}
+
+/// `[prediction]`: what makes a cluster.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PredictionSpec {
+    /// `"exact"`: δe_ij = 0 up to the solver's accuracy; a number: single linkage below it.
+    pub threshold: ThresholdSpec,
+}
+
+/// `[sweep]`: simulations over the coupling strength ε.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SweepSpec {
+    /// Coupling strengths.
+    pub epsilon: Grid,
+    /// Replicas at every ε, from different initial states.
+    #[serde(default = "four")]
+    pub seeds: u64,
+    /// The integrator.
+    #[serde(default)]
+    pub method: MethodKind,
+    /// Step of the integrator.
+    #[serde(default = "step")]
+    pub step: f64,
+    /// Time before the averages begin.
+    pub transient: f64,
+    /// Time of the averages behind every error.
+    pub average: f64,
+    /// Steps from one sample of the errors to the next.
+    #[serde(default = "ten")]
+    pub stride: u32,
+    /// Relative and absolute tolerance of the adaptive methods.
+    #[serde(default = "billionth")]
+    pub tolerance: f64,
+    /// Relative size of the random kicks, one every unit of time, that keep nodes from becoming equal
+    /// to the last bit and then staying so for ever; 0 for none.
+    #[serde(default = "rounding_kick")]
+    pub kick: f64,
+    /// Component whose differences are the errors; the first one by default.
+    pub component: Option<String>,
+    /// Label of the node to which δx_i is measured.
+    pub error_to: Option<Name>,
+    /// Clusters within which δx^c_m is measured, in this order. Without these and `error_to` it is
+    /// measured over the whole network.
+    #[serde(default)]
+    pub clusters: Vec<Vec<Name>>,
+    /// Two nodes count as synchronised when δx_ij is below this, and a cluster when δx^c_m is.
+    pub synchronised_below: Bound,
+}
+
+/// Integrators.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MethodKind {
+    /// Classical fourth-order Runge–Kutta with a fixed step.
+    #[default]
+    Rk4,
+    /// Adaptive Dormand–Prince 5(4).
+    Dopri5,
+    /// Adaptive Dormand–Prince 8(5,3).
+    Dop853,
+}
+
+/// `[figure]`: how the figure looks.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FigureSpec {
+    /// What is drawn: the errors of a sweep against ε, matrices of distances and errors at every ε,
+    /// or the nodes in space, coloured by clusters of regions.
+    pub kind: FigureKind,
+    /// Modes whose eigenvectors are drawn beside matrices; 2, 3 and 4 by default, or those of them
+    /// that are computed.
+    pub eigenvectors: Option<Vec<usize>>,
+    /// Letter of the panels where a paper has several such figures: "a" gives (a1), (a2), …; without it
+    /// they are (a), (b), …
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub letter: Option<String>,
+    /// Letters of the panels that are drawn, such as "a" or "b1"; all of them by default.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub panels: Vec<String>,
+    /// How the network is laid out.
+    pub layout: Layout,
+    /// Modes whose critical couplings are marked on the sweep; all of them by default.
+    pub mark_modes: Option<Vec<usize>>,
+    /// Couplings at which the source saw transitions, marked in another style.
+    pub source_transitions: Vec<f64>,
+    /// Scale of the axis of errors.
+    pub error_scale: ErrorScale,
+    /// How the spread over seeds is drawn.
+    pub spread: SpreadKind,
+}
+
+impl Default for FigureSpec {
+    fn default() -> Self {
+        Self {
+            kind: FigureKind::Sweep,
+            eigenvectors: None,
+            letter: None,
+            panels: Vec::new(),
+            layout: Layout::Force,
+            mark_modes: None,
+            source_transitions: Vec::new(),
+            error_scale: ErrorScale::Linear,
+            spread: SpreadKind::Band,
+        }
+    }
+}
+
+/// What the figure shows.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum FigureKind {
+    /// Errors against ε.
+    Sweep,
+    /// Distances and errors of all pairs.
+    Matrices,
+    /// The nodes in space.
+    Regions,
+    /// No figure: numbers only.
+    None,
+}
+
+/// Scales of the axis of errors.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ErrorScale {
+    /// Even.
+    Linear,
+    /// Logarithmic.
+    Log,
+}
+
+/// How the spread over seeds is drawn.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpreadKind {
+    /// A shaded band.
+    Band,
+    /// A bar at every point.
+    Bars,
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn four() -> u64 {
+    4
+}
+
+fn ten() -> u32 {
+    10
+}
+
+fn step() -> f64 {
+    0.01
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+fn per_mille() -> f64 {
+    1e-3
+}
+
+fn billionth() -> f64 {
+    1e-9
+}
+
+fn rounding_kick() -> f64 {
+    dynamics::ROUNDING_KICK
+}
+
+fn thousand() -> f64 {
+    1e3
+}
+
+fn hundred_thousand() -> f64 {
+    1e5
+}

@@ -1,5 +1,0 @@
-//! The command `eigensync`; all of it is in the library.
-
-fn main() -> std::process::ExitCode {
-    runner::main()
-}
