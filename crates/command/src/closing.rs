@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use crate::output::terminal_size;
+use claims::{Judged, Verdict};
 use golden::Comparison;
 use runner::REPORT;
-use runner::claims::{Claim, Verdict};
 use runner::table::readable;
 use user::text::{one_line, shown};
 
@@ -21,7 +21,7 @@ const MOVED: usize = 6;
 pub struct Outcome {
     pub id: String,
     pub place: PathBuf,
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Judged>,
     /// None without a golden output.
     pub comparison: Option<Comparison>,
 }
@@ -30,7 +30,7 @@ impl Outcome {
     /// Whether all claims and the comparison hold, as far as this run can decide them.
     pub fn holds(&self) -> bool {
         let fails =
-            |claim: &Claim| matches!(claim.verdict, Verdict::Differs | Verdict::CannotBeJudged);
+            |claim: &Judged| matches!(claim.verdict, Verdict::Differs | Verdict::CannotBeJudged);
         !self.claims.iter().any(fails) && self.comparison.as_ref().is_none_or(Comparison::holds)
     }
 }
@@ -126,7 +126,7 @@ fn entries(outcomes: &[Outcome]) -> Vec<String> {
 }
 
 /// A claim that does not hold, and why.
-fn about(claim: &Claim) -> String {
+fn about(claim: &Judged) -> String {
     let (mut sentence, reason) = (claim.sentence(), one_line(&claim.reason));
     if let Some(runs) = claim.runs {
         sentence.push_str(&format!(" ({runs})"));
@@ -138,7 +138,7 @@ fn about(claim: &Claim) -> String {
         Verdict::Differs | Verdict::Holds => {
             let [paper, obtained] = [&claim.paper, &claim.obtained].map(readable);
             let reason = if reason.is_empty() { String::new() } else { format!(" ({reason})") };
-            let Claim { verdict, tolerance, .. } = claim;
+            let Judged { verdict, tolerance, .. } = claim;
             format!(
                 "{sentence}: {verdict}: expected {paper}, obtained {obtained}, tolerance \
                  {tolerance}{reason}"
@@ -232,7 +232,7 @@ mod tests {
     use super::*;
 
     fn outcome(id: &str, claims: &[(Verdict, &str)]) -> Outcome {
-        let claim = |(verdict, reason): &(Verdict, &str)| Claim {
+        let claim = |(verdict, reason): &(Verdict, &str)| Judged {
             name: "four_clusters_at_5_65".into(),
             source: String::new(),
             paper: json!(1.0),

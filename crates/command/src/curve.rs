@@ -103,7 +103,7 @@ pub fn run(args: &Args) -> Result<()> {
         let summary = Summary {
             layout: LAYOUT,
             id: id.clone(),
-            title: plan.experiment.title.clone(),
+            title: plan.title.clone(),
             experiment: experiment(&plan),
             shortened: plan.shortened,
             msf: msf_record(&msf),
@@ -188,7 +188,7 @@ fn draw(
 ) -> Vec<Warning> {
     let tell = |warning: &Warning| warning::say(&plan.id, warning, &**watch);
     let mut warnings = Warnings::after(&[], &tell);
-    for (name, drawn) in drawing::curve_alone(&plan.experiment.title, msf) {
+    for (name, drawn) in drawing::curve_alone(&plan.title, msf) {
         let written = drawn
             .and_then(|bytes| folder.write(name, bytes).map_err(|problem| problem.to_string()));
         if let Err(reason) = written {
@@ -199,7 +199,7 @@ fn draw(
 }
 
 fn said(plan: &Plan, msf: &MasterStability) -> String {
-    let mut text = format!("{}\n\n", plan.experiment.title);
+    let mut text = format!("{}\n\n", plan.title);
     let (first, last) = (msf.sigma[0], msf.sigma[msf.sigma.len() - 1]);
     let looked = format!(
         "{} values of sigma, {} to {}",

@@ -15,7 +15,7 @@ const SAME: f64 = 1e-9;
 pub fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
     let eigenspaces = findings.spectrum.real_modes().eigenspaces;
     let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
-    let is_wanted = |critical: &CriticalCoupling| match &plan.figure().mark_modes {
+    let is_wanted = |critical: &CriticalCoupling| match &plan.figure.mark_modes {
         Some(modes) => modes.contains(&critical.mode),
         None => changes_clusters(critical.epsilon, &findings.cascade),
     };
@@ -65,7 +65,7 @@ fn name(critical: &CriticalCoupling, stable: &StableRegion) -> Label {
 
 /// The transitions that the source saw in its own simulations.
 pub fn seen_by_the_source(plan: &Plan) -> MarkerGroup {
-    let transitions = plan.figure().source_transitions.iter();
+    let transitions = plan.figure.source_transitions.iter();
     MarkerGroup {
         style: MarkerStyle::Reference,
         legend: Some(Label::text("paper")),

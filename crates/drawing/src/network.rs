@@ -91,7 +91,7 @@ pub fn network(plan: &Plan, clusters: &[Vec<usize>], names: Vec<Label>) -> Netwo
             .map(|(i, label)| Node { label: label.clone(), cluster: cluster_of[i] })
             .collect(),
         links: links.collect(),
-        placement: match &plan.figure().layout {
+        placement: match &plan.figure.layout {
             Layout::Circle => Placement::Circle,
             Layout::Force => Placement::Stress,
             Layout::Grouped => Placement::Grouped,

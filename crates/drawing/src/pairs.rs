@@ -51,7 +51,7 @@ pub fn matrices(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figu
         eigenvectors.x_label = Label::text("place in the order of clusters");
     }
     Comparison {
-        title: plan.experiment.title.clone(),
+        title: plan.title.clone(),
         network: network(plan, findings, &identities),
         eigenvectors,
         matrices: matrices.collect(),
@@ -78,7 +78,7 @@ pub fn shown(simulated: &Simulated) -> impl Iterator<Item = usize> {
 /// The modes asked for, else those of [`DEFAULT_MODES`] that were computed, or the only one.
 fn shown_modes(plan: &Plan, findings: &Findings) -> Vec<usize> {
     let computed = findings.spectrum.n_modes();
-    plan.figure().eigenvectors.clone().unwrap_or_else(|| {
+    plan.figure.eigenvectors.clone().unwrap_or_else(|| {
         let modes: Vec<usize> = DEFAULT_MODES.filter(|&mode| mode <= computed).collect();
         if modes.is_empty() { vec![1] } else { modes }
     })

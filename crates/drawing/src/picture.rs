@@ -28,12 +28,12 @@ pub struct Picture {
 
 /// The figure of a run; empty where none is asked for.
 pub fn picture(plan: &Plan, findings: &Findings) -> Picture {
-    if plan.figure().kind == FigureKind::None {
+    if plan.figure.kind == FigureKind::None {
         return Picture::default();
     }
     let mut warnings = foreseen(plan);
     let drawn = guarded(|| {
-        let figure = chosen_panels(figure(plan, findings), &plan.figure().panels, &mut warnings);
+        let figure = chosen_panels(figure(plan, findings), &plan.figure.panels, &mut warnings);
         figure.drawn().map_err(|error| error.to_string())
     });
     let svg = match drawn {

@@ -29,7 +29,7 @@ pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figur
         let [above, below] = colours.column(findings.agreement.get(position), escaped);
         [of_side("predicted", above), of_side("simulated", below)]
     });
-    pairs_figure(plan.experiment.title.clone(), columns.collect())
+    pairs_figure(plan.title.clone(), columns.collect())
 }
 
 /// The colours that nodes had in the columns before.

@@ -1,10 +1,11 @@
 //! What a figure has room for, known before anything is computed: `check` foresees it, and the figure
 //! is drawn so. Numbers are never left out with it: the tables have them all.
 
+use eigensync::ALL_PAIRS;
 use eigensync::Sweep;
 use eigensync::numbers::plain;
+use experiment::Plan;
 use experiment::spec::FigureKind;
-use experiment::{ALL_PAIRS, Plan};
 
 /// Curves that a reader can tell apart; the others are thin and grey.
 const TOLD_APART: usize = 16;
@@ -59,7 +60,7 @@ pub fn columns(n_epsilon: usize) -> Vec<usize> {
 /// What of a plan its figure will not show as asked, in words.
 pub fn foreseen(plan: &Plan) -> Vec<String> {
     let Some(sweep) = &plan.study.sweep else { return Vec::new() };
-    let asked_for = plan.figure().kind;
+    let asked_for = plan.figure.kind;
     let room = match plan.figure_kind() {
         FigureKind::None => None,
         FigureKind::Sweep => of_curves(sweep, plan.study.network.n_nodes()),

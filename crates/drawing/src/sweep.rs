@@ -15,7 +15,7 @@ use crate::{cascade, curve, marks, room};
 
 /// The network above Λ(σ) at the left; at the right the sweep or, without one, the predicted states.
 pub fn sweep(plan: &Plan, findings: &Findings) -> Figure {
-    let letter = |number: u8| match &plan.figure().letter {
+    let letter = |number: u8| match &plan.figure.letter {
         Some(letter) => format!("({letter}{number})"),
         None => format!("({})", char::from(b'a' + number - 1)),
     };
@@ -47,7 +47,7 @@ pub fn sweep(plan: &Plan, findings: &Findings) -> Figure {
     }
     panels.push(left(1, columns.len() as u8 + 1, Content::Lines(curve::panel(&findings.msf))));
     Figure {
-        title: plan.experiment.title.clone(),
+        title: plan.title.clone(),
         width_mm: if columns.len() > 1 { 170.0 } else { 75.0 },
         height_mm: 100.0,
         columns,
@@ -101,7 +101,7 @@ fn errors(
     };
     series.extend(grey.iter().enumerate().map(muted));
     // A curve of nothing but escapes, or of zeros on a logarithmic scale, has no point to draw.
-    let logarithmic = matches!(plan.figure().error_scale, ErrorScale::Log);
+    let logarithmic = matches!(plan.figure.error_scale, ErrorScale::Log);
     let drawable = |y: &f64| y.is_finite() && (!logarithmic || *y > 0.0);
     series.retain(|curve| curve.y.iter().any(drawable));
     let y_label = if observables.clusters.is_empty() {
@@ -113,7 +113,7 @@ fn errors(
     LinePanel {
         x_label: Label::math("ε"),
         y_label,
-        y_scale: match plan.figure().error_scale {
+        y_scale: match plan.figure.error_scale {
             ErrorScale::Linear => Scale::Linear,
             ErrorScale::Log => Scale::Log,
         },
@@ -188,7 +188,7 @@ fn error_curve(
         spread: Some(Spread {
             lower: of(&|point| (point.mean - point.spread).max(0.0)),
             upper: of(&|point| point.mean + point.spread),
-            drawn: match plan.figure().spread {
+            drawn: match plan.figure.spread {
                 SpreadKind::Band => SpreadStyle::Band,
                 SpreadKind::Bars => SpreadStyle::Bars,
             },

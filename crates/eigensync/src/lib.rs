@@ -148,6 +148,6 @@ pub use simulated::range::{End, Group, Known, Seen};
 pub use simulated::{Apart, MeanPairs, OverSeeds, Simulated, completed, observed};
 pub use stability::word;
 pub use step_effect::{Probe, StepEffect, looked_at as step_effects_looked_at};
-pub use study::{RegionBounds, Study, Sweep};
+pub use study::{ALL_PAIRS, RegionBounds, Study, Sweep};
 pub use synchrony::{EpsilonRange, Synchrony, looked};
 pub use warning::{Warning, Warnings};

@@ -9,6 +9,9 @@ use spectra::SolverChoice;
 
 use crate::{Bound, WantedModes};
 
+/// Up to this many nodes the errors of all pairs are kept.
+pub const ALL_PAIRS: usize = 2000;
+
 /// A question about one network of one oscillator.
 #[derive(Clone, Debug)]
 pub struct Study {

@@ -1,48 +1,46 @@
 //! What will be done: an experiment with its network read, its names resolved and its numbers
 //! checked, so that nothing can go wrong later for a reason that could have been seen now.
 
-mod claims;
+mod claimed;
 mod effects;
 mod memory;
 mod network;
 mod node;
 mod numbers;
+mod parameters;
 mod ranges;
 mod source;
 mod spectrum;
 mod step;
 mod watched;
 
-use eigensync::{Study, Sweep, Warning};
+use eigensync::{ALL_PAIRS, Study, Sweep, Warning};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use claims::Claim;
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
 use dynamics::{
     Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Schedule,
 };
 use graph::prepare::Report;
-use graph::{CouplingMatrix, Network, Normalization};
+use graph::{CouplingMatrix, Names, Network, Normalization};
 
 pub use memory::Memory;
-pub use network::nodes_named;
 pub use node::Node;
 use serde_json::Value;
 
 use crate::hashes::{links_hash, plan_hash};
 use crate::load;
 use crate::spec::{
-    Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, NetworkSpec, RegionsSpec,
-    SweepSpec, ThresholdSpec,
+    CouplingSpec, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, NetworkSpec,
+    RegionsSpec, StepSpec, SweepSpec, ThresholdSpec,
 };
 use user::{Problem, Result, Stages};
 
 /// `--quick` divides the times of sweeps and of the MSF by this.
 pub const QUICK: f64 = 10.0;
-
-/// Up to this many nodes all pairs are observed; beyond it only what the file asks for.
-pub const ALL_PAIRS: usize = 2000;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -52,20 +50,31 @@ pub struct Plan {
     pub file: PathBuf,
     /// What is kept with the results because it is nowhere else, by name: an experiment file, a network.
     pub kept: Vec<(String, Arc<[u8]>)>,
-    /// The specification as written, for titles, sources and the record.
-    pub experiment: Experiment,
-    /// The same as a document, defaults left out, for the record.
+    /// One line that says what the experiment shows.
+    pub title: String,
+    /// Where its settings and expected values come from.
+    pub source: String,
+    /// The experiment file as a document, defaults left out, for the record.
     pub written: Value,
+    /// Every parameter that is used, in the words of experiment files, defaults among them; keys that
+    /// have no effect are null.
+    pub parameters: Value,
     /// 1, or [`QUICK`]: by how much times are shortened.
     pub shortened: f64,
     /// What is asked of the library.
     pub study: Study,
     /// SHA-256 of the links and weights of its network.
     pub links_hash: String,
-    /// What each step of preparation did.
-    pub preparation: Vec<Report>,
+    /// Each step of preparation, and what it did.
+    pub preparation: Vec<(StepSpec, Report)>,
+    /// The coupling in the words of the file.
+    pub coupling: CouplingSpec,
     /// What the node of the study is known by.
     pub node: Node,
+    /// What the figure shows; modes, positions and couplings in it are there.
+    pub figure: FigureSpec,
+    /// What the source says, each claim of an instance that will be there.
+    pub claims: Vec<Claim>,
     /// What is doubtful about it, though it can be done.
     pub doubts: Vec<Warning>,
 }
@@ -144,25 +153,31 @@ fn of(
         n_components,
         matrix,
     };
-    let mut plan = Plan {
-        study,
+    let doubts = checker.steps(&study, &node)?;
+    checker.regions(&study.network)?;
+    checker.figure(&study.network, &study.modes)?;
+    let claims = checker.claims(&study)?;
+    Memory::of_study(&study, experiment.figure.kind).affordable(file)?;
+    let parameters = parameters::of(&experiment, &study, &node);
+    let Experiment { title, source, coupling, prepare, figure, .. } = experiment;
+    Ok(Plan {
         id: id.to_owned(),
         file: file.to_owned(),
         kept: Vec::new(),
+        title,
+        source,
+        written,
+        parameters,
         shortened,
+        study,
         links_hash,
-        preparation,
+        preparation: prepare.into_iter().zip(preparation).collect(),
+        coupling,
         node,
-        experiment: experiment.clone(),
-        written: written.clone(),
-        doubts: Vec::new(),
-    };
-    plan.doubts = checker.steps(&plan)?;
-    checker.regions(&plan.study.network)?;
-    checker.figure(&plan.study.network, &plan.study.modes)?;
-    checker.claims(&plan)?;
-    Memory::of(&plan).affordable(file)?;
-    Ok(plan)
+        figure,
+        claims,
+        doubts,
+    })
 }
 
 fn shortening(quick: bool) -> f64 {
@@ -282,11 +297,17 @@ impl Checker<'_> {
             Some(name) => self.component("sweep.component", name, model)?,
             None => 0,
         };
+        let names = Names::of(network);
         let reference = match &spec.error_to {
-            Some(name) => Some(self.label("sweep.error_to", name, network)?),
+            Some(name) => {
+                let named = names.node(name.as_ref());
+                Some(named.map_err(|error| self.misnamed("sweep.error_to", &error))?)
+            }
             None => None,
         };
-        let mut clusters = self.clusters("sweep.clusters", &spec.clusters, network)?;
+        let mut clusters = names
+            .clusters(&spec.clusters)
+            .map_err(|error| self.misnamed("sweep.clusters", &error))?;
         if clusters.is_empty() && reference.is_none() && network.n_nodes() > 1 {
             clusters.push((0..network.n_nodes()).collect());
         }
@@ -340,20 +361,19 @@ impl Checker<'_> {
     }
 }
 
-/// The part of the specification that says what the figure shows.
 impl Plan {
-    /// What the file says of the figure.
-    pub fn figure(&self) -> &FigureSpec {
-        &self.experiment.figure
-    }
-
-    /// The kind of the figure that can be drawn: there are no matrices where not all pairs are
-    /// observed, and the sweep is shown instead.
+    /// The kind of the figure that can be drawn.
     pub fn figure_kind(&self) -> FigureKind {
-        let has_pairs = self.study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
-        match self.figure().kind {
-            FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
-            kind => kind,
-        }
+        drawn_kind(&self.study, self.figure.kind)
+    }
+}
+
+/// The kind of figure that can be drawn: there are no matrices where not all pairs are observed, and the
+/// sweep is shown instead.
+fn drawn_kind(study: &Study, asked: FigureKind) -> FigureKind {
+    let has_pairs = study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
+    match asked {
+        FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
+        kind => kind,
     }
 }

@@ -3,11 +3,10 @@
 //!
 //! All times are in model time units, all coupling strengths in units of the coupling matrix.
 
-mod claim;
 mod network;
 mod values;
 
-pub use claim::{ClaimSpec, OneOrMany, Quantity, Trend};
+use claims::{ClaimSpec, Name};
 use dynamics::Model;
 use eigensync::{Bound, Wanted};
 use indexmap::IndexMap;
@@ -16,7 +15,7 @@ pub use network::{
     RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::{Deserialize, Serialize};
-pub use values::{EvenGrid, Grid, Layout, Name, ThresholdSpec};
+pub use values::{EvenGrid, Grid, Layout, ThresholdSpec};
 
 /// An experiment: one network, one oscillator, one question.
 #[derive(Clone, Debug, Deserialize, Serialize)]

@@ -357,3 +357,39 @@ pub enum CouplingError {
         size: f64,
     },
 }
+
+/// Why names are not those of nodes, or no clusters.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum NameError {
+    /// No node and no group is called so.
+    #[error("names node \"{name}\", which the network does not have")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The first labels that there are.
+        known: Vec<String>,
+    },
+    /// A cluster of fewer than two nodes.
+    #[error("has the cluster [{}]; a cluster has two nodes or more", names.join(", "))]
+    TooFew {
+        /// The names in it.
+        names: Vec<String>,
+    },
+    /// A node in two clusters, or twice in one.
+    #[error("has node \"{label}\" twice; clusters share no nodes")]
+    Twice {
+        /// Its label.
+        label: String,
+    },
+}
+
+impl NameError {
+    /// The way out, where there is an obvious one.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Unknown { known, .. } => Some(format!("its nodes are {}", known.join(", "))),
+            Self::TooFew { .. } | Self::Twice { .. } => None,
+        }
+    }
+}

@@ -8,6 +8,7 @@ mod coupling_matrix;
 mod error;
 pub mod formats;
 pub mod generators;
+mod names;
 mod network;
 mod nodes;
 pub mod prepare;
@@ -17,7 +18,8 @@ mod unit_interval;
 
 pub use components::Components;
 pub use coupling_matrix::{CouplingMatrix, Normalization, SymmetricForm, Symmetry};
-pub use error::{CouplingError, GeneratorError, GraphError, PrepareError};
+pub use error::{CouplingError, GeneratorError, GraphError, NameError, PrepareError};
+pub use names::Names;
 pub use network::Network;
 pub use nodes::{Group, numbered_labels};
 pub use raw_network::RawNetwork;

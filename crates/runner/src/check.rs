@@ -8,7 +8,6 @@ use dynamics::{Adaptive, AdaptiveOrder, Method};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::record::parameters;
 use crate::trial;
 use experiment::spec::{FigureKind, MatrixKind};
 use experiment::{Memory, Plan};
@@ -38,8 +37,8 @@ pub fn describe(plan: &Plan) -> String {
     let mut line = |name: &str, value: String| {
         writeln!(text, "{name:<12} {}", one_line(&value)).expect("a string takes every line");
     };
-    let (network, experiment) = (&plan.study.network, &plan.experiment);
-    line("experiment", format!("{}: {}", plan.id, experiment.title));
+    let network = &plan.study.network;
+    line("experiment", format!("{}: {}", plan.id, plan.title));
     line(
         "network",
         format!(
@@ -52,11 +51,11 @@ pub fn describe(plan: &Plan) -> String {
     );
     let parameters = serde_json::to_string(&plan.node.model).unwrap_or_default();
     line("oscillator", parameters);
-    let matrix = match experiment.coupling.matrix {
+    let matrix = match plan.coupling.matrix {
         MatrixKind::Laplacian => "laplacian",
         MatrixKind::Normalized => "normalized",
     };
-    let (from, to) = (&experiment.coupling.from, &experiment.coupling.to);
+    let (from, to) = (&plan.coupling.from, &plan.coupling.to);
     line("coupling", format!("{matrix}; {from} into {to}"));
     line(
         "prediction",
@@ -99,7 +98,7 @@ pub fn describe(plan: &Plan) -> String {
         );
     }
     line("figure", figure(plan));
-    line("claims", experiment.claims.len().to_string());
+    line("claims", plan.claims.len().to_string());
     line("memory", format!("about {}", Memory::of(plan)));
     line("cost", Cost::of(plan).words());
     text
@@ -107,7 +106,7 @@ pub fn describe(plan: &Plan) -> String {
 
 /// The kind of the figure, and what it will not show as asked.
 fn figure(plan: &Plan) -> String {
-    let kind = match plan.figure().kind {
+    let kind = match plan.figure.kind {
         FigureKind::Sweep => "sweep",
         FigureKind::Matrices => "matrices",
         FigureKind::Regions => "regions",
@@ -208,8 +207,8 @@ impl Checked {
         Self {
             id: plan.id.clone(),
             file: plan.file.to_string_lossy().into_owned(),
-            title: plan.experiment.title.clone(),
-            parameters: parameters::of(plan),
+            title: plan.title.clone(),
+            parameters: plan.parameters.clone(),
             shortened: plan.shortened,
             network: CheckedNetwork {
                 links_hash: plan.links_hash.clone(),
@@ -219,7 +218,7 @@ impl Checked {
                 isolated_nodes: network.isolated_nodes().len(),
                 groups: network.groups().len(),
             },
-            claims: plan.experiment.claims.len(),
+            claims: plan.claims.len(),
             figure_without: drawing::foreseen(plan),
             memory_bytes: Memory::of(plan).bytes(),
             cost: Cost::of(plan),

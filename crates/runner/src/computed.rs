@@ -14,7 +14,7 @@ use msf::MasterStability;
 use spectra::Spectrum;
 
 use crate::warning;
-use experiment::{Node, Plan};
+use experiment::Node;
 use journal::{Journal, Kind, is_worth_keeping};
 use user::Stages;
 
@@ -69,8 +69,8 @@ impl Compute for Kept<'_> {
 
     /// Kept where writing it costs little beside computing it again.
     fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
-        let &Work { plan, journal, stages } = self.work;
-        let key = journal.key(Kind::Spectrum, &(matrix(plan), request));
+        let &Work { journal, stages, .. } = self.work;
+        let key = journal.key(Kind::Spectrum, &(self.work.matrix(), request));
         if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
             return Ok(spectrum);
         }
@@ -129,11 +129,6 @@ pub fn reach(
         let look = |progress: Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
         stages.measured("first look at the msf", 16 * times.steps(), look)
     })
-}
-
-/// What the coupling matrix of a plan is known by.
-fn matrix(plan: &Plan) -> (&str, usize, u8) {
-    (&plan.links_hash, plan.study.network.n_nodes(), plan.experiment.coupling.matrix as u8)
 }
 
 /// How far the refinement of a zero has come.

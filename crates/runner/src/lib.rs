@@ -7,7 +7,6 @@
 
 mod cascade_files;
 pub mod check;
-pub mod claims;
 pub mod computed;
 pub mod findings;
 mod membership;

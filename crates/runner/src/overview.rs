@@ -3,6 +3,7 @@
 
 mod exactness;
 mod onsets;
+mod words;
 
 use eigensync::numbers::{four_digits, two_digits, with_error};
 use eigensync::{Findings, looked};
@@ -17,9 +18,8 @@ use spectra::Verification;
 use crate::provenance::peak_memory;
 use experiment::Plan;
 use user::Stages;
+use words::{SHOWN, abridged, grouped};
 
-/// Modes and states shown; the results folder has them all.
-const SHOWN: usize = 12;
 /// Sizes shown of the clusters of one state.
 const SIZES: usize = 5;
 
@@ -211,37 +211,4 @@ fn row(state: &State, labels: &StateLabels) -> [String; 6] {
         largest.join(" + "),
         grouped(alone),
     ]
-}
-
-fn abridged(values: impl Iterator<Item = String>) -> String {
-    let mut shown: Vec<String> = values.take(SHOWN + 1).collect();
-    if shown.len() > SHOWN {
-        shown[SHOWN] = "…".into();
-    }
-    shown.join(", ")
-}
-
-/// A count with commas between groups of three digits.
-fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
-    groups.collect::<Vec<_>>().join(",")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_are_grouped_by_thousands() {
-        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-    }
-
-    #[test]
-    fn long_lists_are_abridged() {
-        let values = |count: usize| abridged((0..count).map(|k| k.to_string()));
-        assert_eq!(values(2), "0, 1");
-        assert!(values(12).ends_with("10, 11"));
-        assert!(values(13).ends_with("11, …"));
-    }
 }

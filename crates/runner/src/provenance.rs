@@ -55,7 +55,7 @@ impl Provenance {
             version: program::VERSION,
             commit: program::COMMIT,
             origin: origin.clone(),
-            seed: plan.experiment.seed,
+            seed: plan.study.seed,
             plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),
             host_features: host_features(),
             instruction_set: plan.study.msf.instruction_set.name(),

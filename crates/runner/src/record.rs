@@ -3,7 +3,6 @@
 mod msf;
 mod names;
 mod network;
-pub mod parameters;
 mod simulations;
 mod spectrum;
 mod states;
@@ -17,8 +16,8 @@ use results_folder::Origin;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::claims::Claim;
 use crate::provenance::Provenance;
+use claims::Judged;
 
 pub use msf::{
     AttractorRecord, CriticalRecord, EndRecord, MsfRecord, ShiftRecord, ZeroRecord, msf_record,
@@ -68,7 +67,7 @@ pub struct Summary {
     /// What the step of the integrator does to their errors.
     pub simulations_step_effect: Vec<StepEffect>,
     /// Claims of the file, judged.
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Judged>,
     /// What must be known beside these numbers.
     pub warnings: Vec<Warning>,
     /// Where the results come from.
@@ -79,16 +78,16 @@ pub struct Summary {
 pub fn summarise(
     plan: &Plan,
     findings: &Findings,
-    claims: Vec<Claim>,
+    claims: Vec<Judged>,
     took: (Duration, &[(String, Duration)]),
     (taken, origin): (Held, &Origin),
 ) -> Summary {
     Summary {
         layout: LAYOUT,
-        parameters: parameters::of(plan),
+        parameters: plan.parameters.clone(),
         id: plan.id.clone(),
-        title: plan.experiment.title.clone(),
-        source: plan.experiment.source.clone(),
+        title: plan.title.clone(),
+        source: plan.source.clone(),
         shortened: plan.shortened,
         network: network::record(plan),
         eigenvalues: findings.spectrum.real_eigenvalues(),

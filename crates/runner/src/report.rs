@@ -4,9 +4,9 @@
 
 use std::fmt::Write;
 
-use crate::claims::Claim;
 use crate::overview;
 use crate::table;
+use claims::Judged;
 use eigensync::Findings;
 use eigensync::Warning;
 use experiment::Plan;
@@ -21,11 +21,11 @@ pub const REPORT: &str = "report.txt";
 pub fn of(
     plan: &Plan,
     findings: &Findings,
-    claims: &[Claim],
+    claims: &[Judged],
     warnings: &[Warning],
     comparison: Option<&Comparison>,
 ) -> String {
-    let mut text = format!("{}: {}\n\n", plan.id, one_line(&plan.experiment.title));
+    let mut text = format!("{}: {}\n\n", plan.id, one_line(&plan.title));
     text.push_str(&overview::of(plan, findings));
     if !claims.is_empty() {
         add(&mut text, "claims", &table::claims(claims));

@@ -11,11 +11,11 @@ use serde_json::Value;
 
 use crate::Work;
 use crate::cascade_files;
-use crate::claims::Claim;
 use crate::membership;
 use crate::record::{Summary, summarise};
 use crate::report::{self, REPORT};
 use crate::warning;
+use claims::Judged;
 use experiment::Plan;
 use experiment::spec::FigureKind;
 use golden::Comparison;
@@ -44,7 +44,7 @@ pub struct Written {
 pub fn write(
     &Work { plan, journal, stages }: &Work<'_>,
     findings: &Findings,
-    claims: Vec<Claim>,
+    claims: Vec<Judged>,
     golden: Option<&Value>,
     took: &dyn Fn() -> Duration,
     place: Place,

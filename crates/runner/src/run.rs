@@ -12,10 +12,10 @@ use serde_json::Value;
 use user::text::shown;
 use user::{Problem, Result, Stages, Watch};
 
-use crate::claims::{self, Claim};
 use crate::computed::Curves;
 use crate::results::{self, Written};
 use crate::{Work, findings};
+use claims::{Judged, judge};
 
 /// An experiment that has run.
 pub struct Done {
@@ -24,7 +24,7 @@ pub struct Done {
     /// What was found.
     pub findings: Findings,
     /// Its claims, judged.
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Judged>,
     /// What differs from the golden output, where there is one.
     pub comparison: Option<Comparison>,
     /// How long it took, reading and preparation among it.
@@ -85,7 +85,10 @@ pub fn run(
     let mut place = Some(place);
     let (findings, claims, written) = work.journal.until(|| {
         let findings = findings::find(work, curves)?;
-        let claims = claims::judge(work.plan, &findings)?;
+        let (study, is_quick) = (&work.plan.study, work.plan.shortened > 1.0);
+        let claims = work.plan.claims.iter();
+        let claims: Vec<Judged> =
+            claims.map(|claim| judge(claim, study, &findings, is_quick)).collect();
         let place = place.take().expect("results are written once");
         let written = results::write(work, &findings, claims.clone(), golden, &took, place)?;
         Ok((findings, claims, written))

@@ -6,7 +6,7 @@ use eigensync::Agreement;
 use eigensync::numbers::{four_digits, two_digits};
 use serde_json::Value;
 
-use crate::claims::Claim;
+use claims::Judged;
 use user::text::one_line;
 
 /// Lists with more entries are abridged.
@@ -15,7 +15,7 @@ const LONG_LIST: usize = 8;
 const WIDTH: u16 = 170;
 
 /// claim | paper | obtained | tolerance | verdict.
-pub fn claims(claims: &[Claim]) -> String {
+pub fn claims(claims: &[Judged]) -> String {
     let mut table = Table::new();
     table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(WIDTH);

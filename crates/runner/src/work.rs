@@ -14,3 +14,11 @@ pub struct Work<'a> {
     /// The stages so far, those of planning among them.
     pub stages: &'a Stages,
 }
+
+impl Work<'_> {
+    /// What the coupling matrix is known by.
+    pub fn matrix(&self) -> (&str, usize, u8) {
+        let Plan { links_hash, study, coupling, .. } = self.plan;
+        (links_hash, study.network.n_nodes(), coupling.matrix as u8)
+    }
+}

@@ -3,12 +3,12 @@
 //! The numbers of bytes are rounded up from runs of 10³ to 10⁶ nodes; they are there to tell a
 //! gigabyte from a hundred, not to be exact.
 
-use eigensync::Sweep;
+use eigensync::{Study, Sweep};
 use std::path::Path;
 
 use dynamics::Observables;
 
-use super::{Checker, Plan};
+use super::{Checker, Plan, drawn_kind};
 use crate::machine::available_memory;
 use crate::spec::{FigureKind, NetworkSpec};
 use user::{Problem, Result};
@@ -62,15 +62,20 @@ impl Memory {
 
     /// Of all that a plan does.
     pub fn of(plan: &Plan) -> Self {
-        let (n, links) = (plan.study.network.n_nodes() as f64, plan.study.network.n_links() as f64);
+        Self::of_study(&plan.study, plan.figure.kind)
+    }
+
+    /// The same of a study and the figure that is asked for.
+    pub(super) fn of_study(study: &Study, asked: FigureKind) -> Self {
+        let (n, links) = (study.network.n_nodes() as f64, study.network.n_links() as f64);
         let mut parts = vec![Part {
             name: "network",
             key: "network",
             bytes: n * NODE + links * LINK,
             hint: "take a smaller network, or a part of it by `prepare`",
         }];
-        let modes = plan.study.modes.most_modes(plan.study.network.n_nodes()) as f64;
-        let is_dense = plan.study.modes.is_dense(plan.study.network.n_nodes());
+        let modes = study.modes.most_modes(study.network.n_nodes()) as f64;
+        let is_dense = study.modes.is_dense(study.network.n_nodes());
         let dense = DENSE_MATRICES * n * n;
         let leading = (VECTORS_A_MODE * n * modes).min(dense);
         parts.push(Part {
@@ -79,11 +84,9 @@ impl Memory {
             bytes: NUMBER * if is_dense { dense } else { leading },
             hint: "set `spectrum.modes` to the number of leading modes you need",
         });
-        parts.extend(plan.study.sweep.iter().map(|sweep| of_sweep(sweep, n)));
-        let figure = plan.figure_kind();
-        if plan.study.sweep.is_some()
-            && matches!(figure, FigureKind::Matrices | FigureKind::Regions)
-        {
+        parts.extend(study.sweep.iter().map(|sweep| of_sweep(sweep, n)));
+        let figure = drawn_kind(study, asked);
+        if study.sweep.is_some() && matches!(figure, FigureKind::Matrices | FigureKind::Regions) {
             parts.push(Part {
                 name: "figure",
                 key: "figure.kind",

@@ -1,14 +1,15 @@
 //! The network of an experiment, and whatever names its nodes or modes.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
-use graph::Network;
+use eigensync::ALL_PAIRS;
 use graph::prepare::Report;
+use graph::{NameError, Network};
 
 use eigensync::WantedModes;
 
-use super::{ALL_PAIRS, Checker};
-use crate::spec::{FigureKind, Layout, Name};
+use super::Checker;
+use crate::spec::{FigureKind, Layout};
 use user::{Problem, Result};
 
 impl Checker<'_> {
@@ -28,53 +29,13 @@ impl Checker<'_> {
         Ok((network, reports))
     }
 
-    pub(super) fn label(&self, key: &str, name: &Name, network: &Network) -> Result<usize> {
-        network.node(&name.0).ok_or_else(|| {
-            let labels = network.labels();
-            let shown: Vec<_> = labels.iter().take(8).map(String::as_str).collect();
-            let more = if labels.len() > shown.len() { ", …" } else { "" };
-            let message = format!("names node \"{}\", which the network does not have", name.0);
-            self.problem(key, message).hint(format!("its nodes are {}{more}", shown.join(", ")))
-        })
-    }
-
-    /// Clusters of node labels as lists of nodes: two nodes or more each, none twice.
-    pub(super) fn clusters(
-        &self,
-        key: &str,
-        named: &[Vec<Name>],
-        network: &Network,
-    ) -> Result<Vec<Vec<usize>>> {
-        if named.is_empty() {
-            return Ok(Vec::new());
+    /// What a name of nodes is not, as a problem with its key.
+    pub(super) fn misnamed(&self, key: &str, error: &NameError) -> Problem {
+        let problem = self.problem(key, error);
+        match error.hint() {
+            Some(hint) => problem.hint(hint),
+            None => problem,
         }
-        let known = Names::of(network);
-        let mut seen = HashSet::new();
-        let mut clusters = Vec::new();
-        for names in named {
-            let mut nodes = Vec::new();
-            for name in names {
-                match known.nodes(&name.0) {
-                    Some(of_name) => nodes.extend(of_name),
-                    None => nodes.push(self.label(key, name, network)?),
-                }
-            }
-            if nodes.len() < 2 {
-                let names: Vec<_> = names.iter().map(|name| name.0.as_str()).collect();
-                let message = format!(
-                    "has the cluster [{}]; a cluster has two nodes or more",
-                    names.join(", ")
-                );
-                return Err(self.problem(key, message));
-            }
-            if let Some(&twice) = nodes.iter().find(|&&node| !seen.insert(node)) {
-                let label = &network.labels()[twice];
-                let message = format!("has node \"{label}\" twice; clusters share no nodes");
-                return Err(self.problem(key, message));
-            }
-            clusters.push(nodes);
-        }
-        Ok(clusters)
     }
 
     /// Modes, counted from 1: no more of them than there are, and none twice.
@@ -168,33 +129,4 @@ impl Checker<'_> {
             }
         }
     }
-}
-
-/// Nodes by their labels, and groups by their names, looked up many times.
-struct Names<'a> {
-    nodes: HashMap<&'a str, usize>,
-    groups: HashMap<&'a str, &'a [usize]>,
-}
-
-impl<'a> Names<'a> {
-    fn of(network: &'a Network) -> Self {
-        let labels = network.labels().iter().enumerate();
-        let groups = network.groups().iter();
-        Self {
-            nodes: labels.map(|(node, label)| (label.as_str(), node)).collect(),
-            groups: groups.map(|group| (group.name.as_str(), &group.nodes[..])).collect(),
-        }
-    }
-
-    /// The node with this label or, failing that, the nodes of the group of this name.
-    fn nodes(&self, name: &str) -> Option<Vec<usize>> {
-        let node = self.nodes.get(name).map(|&node| vec![node]);
-        node.or_else(|| self.groups.get(name).map(|nodes| nodes.to_vec()))
-    }
-}
-
-/// The node with this label or, failing that, the nodes of the group of this name.
-pub fn nodes_named(network: &Network, name: &Name) -> Option<Vec<usize>> {
-    let group = || network.groups().iter().find(|group| group.name == name.0);
-    network.node(&name.0).map(|node| vec![node]).or_else(|| Some(group()?.nodes.clone()))
 }

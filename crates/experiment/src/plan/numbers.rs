@@ -1,10 +1,10 @@
 //! Numbers of an experiment: finite, of the right sign, and of a size that can be computed at all.
 
 use dynamics::{BLOCKS, Schedule};
-use eigensync::Bound;
 use eigensync::numbers::plain;
+use eigensync::{ALL_PAIRS, Bound};
 
-use super::{ALL_PAIRS, Checker};
+use super::Checker;
 use crate::spec::{EvenGrid, Grid};
 use user::Result;
 

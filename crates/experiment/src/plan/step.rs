@@ -3,9 +3,9 @@
 
 use dynamics::{LinearSteps, Method, StepVerdict};
 use eigensync::numbers::{four_digits, plain, two_digits};
-use eigensync::{Sweep, Warning};
+use eigensync::{Study, Sweep, Warning};
 
-use super::{Checker, Node, Plan};
+use super::{Checker, Node};
 use user::Result;
 
 /// Where a step is taken, and what would help beside a shorter one.
@@ -23,40 +23,40 @@ struct Step<'a> {
 impl Checker<'_> {
     /// Judges the steps of a plan: that of the master stability function at the end of its grid, and
     /// that of a sweep at its largest ε for the fastest mode of the network. Returns doubts.
-    pub(super) fn steps(&self, plan: &Plan) -> Result<Vec<Warning>> {
+    pub(super) fn steps(&self, study: &Study, node: &Node) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
-        let step = plan.study.msf.times.step;
-        if let Some(steps) = self.linear_steps(&plan.node, step) {
+        let step = study.msf.times.step;
+        if let Some(steps) = self.linear_steps(node, step) {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
                 step,
-                sigma: plan.study.msf.sigma[plan.study.msf.sigma.len() - 1],
+                sigma: study.msf.sigma[study.msf.sigma.len() - 1],
                 reached_by: "the end of `msf.sigma`",
                 instead: "or end the grid earlier",
             };
             doubts.extend(self.judge(&steps, &of_msf)?);
         }
-        match &plan.study.sweep {
+        match &study.sweep {
             Some(sweep) if sweep.method == Method::Rk4 => {
-                doubts.extend(self.sweep_step(plan, sweep)?);
+                doubts.extend(self.sweep_step((study, node), sweep)?);
             }
             _ => {}
         }
         Ok(doubts)
     }
 
-    fn sweep_step(&self, plan: &Plan, sweep: &Sweep) -> Result<Option<Warning>> {
+    fn sweep_step(&self, (study, node): (&Study, &Node), sweep: &Sweep) -> Result<Option<Warning>> {
         let step = sweep.schedule.step;
-        let Some(steps) = self.linear_steps(&plan.node, step) else { return Ok(None) };
+        let Some(steps) = self.linear_steps(node, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
-        let diagonal = plan.study.matrix.matrix().diag_iter().flatten();
+        let diagonal = study.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
         // By Gershgorin |λ_N| is no more, and need not be known where the step is sound even so.
         if steps.judge(epsilon * bound, step) == StepVerdict::Sound {
             return Ok(None);
         }
-        let fastest = spectra::smallest_eigenvalue(&plan.study.matrix).map_or(bound, f64::abs);
+        let fastest = spectra::smallest_eigenvalue(&study.matrix).map_or(bound, f64::abs);
         let reached_by =
             format!("epsilon = {} times |λ_N| = {}", plain(epsilon), four_digits(fastest));
         let of_sweep = Step {

@@ -9,7 +9,7 @@ use eigensync::{Bound, RegionBounds};
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use super::Name;
+use claims::Name;
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize, Serialize)]

@@ -21,11 +21,6 @@ pub enum Layout {
     At(Vec<[f64; 2]>),
 }
 
-/// A node label, written as a text or as a whole number.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct Name(pub String);
-
 /// A grid of values: `{ from, to, points }`, evenly spaced with both ends, or a list.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
@@ -76,25 +71,6 @@ pub enum ThresholdSpec {
     /// Single linkage up to this δe_ij.
     #[serde(untagged)]
     Within(f64),
-}
-
-impl<'de> Deserialize<'de> for Name {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Label;
-        impl Visitor<'_> for Label {
-            type Value = Name;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a node label: a text or a whole number")
-            }
-            fn visit_str<E: Error>(self, label: &str) -> Result<Name, E> {
-                Ok(Name(label.to_owned()))
-            }
-            fn visit_i64<E: Error>(self, label: i64) -> Result<Name, E> {
-                Ok(Name(label.to_string()))
-            }
-        }
-        deserializer.deserialize_any(Label)
-    }
 }
 
 impl<'de> Deserialize<'de> for Grid {

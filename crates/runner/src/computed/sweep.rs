@@ -9,7 +9,6 @@ use dynamics::{
     DynamicsError, Next, Observer, Outcome, Progress, Replica, Run, Schedule, Snapshot, Start,
 };
 
-use super::matrix;
 use crate::Work;
 use journal::{Journal, Key, Kind};
 
@@ -22,7 +21,7 @@ pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
     let &Work { plan, journal, stages } = work;
     let simulation = plan.study.simulation(sweep, sweep.schedule);
     let replicas = sweep.replicas();
-    let shared = (matrix(plan), &plan.node, sweep.method, sweep.schedule);
+    let shared = (work.matrix(), &plan.node, sweep.method, sweep.schedule);
     let shared = journal.key(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
     let key =
         |replica: &Replica| journal.key(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
@@ -63,7 +62,7 @@ pub fn effects_of_step(
     };
     let replicas: Vec<(f64, u64, f64)> =
         probe.replicas.iter().map(|run| (run.epsilon, run.seed, bound(run))).collect();
-    let of = (matrix(plan), &plan.node, sweep.method, probe.schedules, replicas);
+    let of = (work.matrix(), &plan.node, sweep.method, probe.schedules, replicas);
     let key = journal.key(Kind::StepEffects, &(of, &sweep.observables, sweep.kick));
     journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {

@@ -7,13 +7,8 @@ use std::fmt::Write;
 
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
-use super::{SHOWN, grouped};
+use super::words::{NODES, SHOWN, grouped, named};
 use experiment::Plan;
-use user::text::one_line;
-
-/// Nodes shown of one cluster, and characters of the name of one.
-const NODES: usize = 8;
-const LABEL: usize = 24;
 
 /// The lines about the exactness of a prediction.
 pub fn of(plan: &Plan, findings: &Findings) -> String {
@@ -122,18 +117,6 @@ fn below(state: &State) -> String {
         Some(to) => format!("below {}", four_digits(to)),
         None => format!("above {}", four_digits(state.epsilon.0)),
     }
-}
-
-pub(super) fn named(plan: &Plan, nodes: &[usize]) -> String {
-    let shown = nodes.iter().take(NODES).map(|&node| {
-        let label = one_line(&plan.study.network.labels()[node]);
-        match label.char_indices().nth(LABEL) {
-            Some((end, _)) => format!("{}…", &label[..end]),
-            None => label.into_owned(),
-        }
-    });
-    let more = if nodes.len() > NODES { ", …" } else { "" };
-    format!("{{{}{more}}}", shown.collect::<Vec<_>>().join(", "))
 }
 
 fn line(text: &mut String, what: std::fmt::Arguments<'_>) {

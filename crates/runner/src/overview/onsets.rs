@@ -6,7 +6,7 @@ use clustering::{CascadeTree, State, TreeCluster};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 
-use super::{SHOWN, exactness::named};
+use super::words::{SHOWN, named};
 use eigensync::Findings;
 use eigensync::numbers::with_error;
 use eigensync::numbers::{four_digits, two_digits};

@@ -2,7 +2,7 @@
 
 use experiment::Plan;
 
-use crate::claims::labelled;
+use claims::labelled;
 
 /// Clusters of nodes as clusters of labels.
 pub fn named(clusters: &[Vec<usize>], plan: &Plan) -> Vec<Vec<String>> {

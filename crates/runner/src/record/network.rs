@@ -64,7 +64,7 @@ pub fn record(plan: &Plan) -> NetworkRecord {
 }
 
 fn step_records(plan: &Plan) -> Vec<StepRecord> {
-    let record = |(step, report): (&StepSpec, &Report)| StepRecord {
+    let record = |(step, report): &(StepSpec, Report)| StepRecord {
         step: serde_json::to_value(step).unwrap_or_default(),
         removed_nodes: report.removed_nodes.len(),
         removed_groups: report.removed_groups.clone(),
@@ -75,5 +75,5 @@ fn step_records(plan: &Plan) -> Vec<StepRecord> {
         links: report.n_links,
         directed: report.directed,
     };
-    plan.experiment.prepare.iter().zip(&plan.preparation).map(record).collect()
+    plan.preparation.iter().map(record).collect()
 }

@@ -4,12 +4,14 @@
 use dynamics::NodeDynamics;
 use serde_json::{Value, json};
 
-use experiment::Plan;
-use experiment::spec::NetworkSpec;
+use eigensync::Study;
+
+use super::Node;
+use crate::spec::{Experiment, NetworkSpec};
 
 /// The resolved experiment; keys that have no effect in it are null.
-pub fn of(plan: &Plan) -> Value {
-    let mut parameters = serde_json::to_value(&plan.experiment).unwrap_or_default();
+pub fn of(experiment: &Experiment, study: &Study, node: &Node) -> Value {
+    let mut parameters = serde_json::to_value(experiment).unwrap_or_default();
     let mut set = |pointer: &str, value: Value| {
         if let Some((table, key)) = pointer.rsplit_once('/')
             && let Some(table) = parameters.pointer_mut(table)
@@ -17,19 +19,19 @@ pub fn of(plan: &Plan) -> Value {
             table[key] = value;
         }
     };
-    if let NetworkSpec::File(spec) = &plan.experiment.network {
+    if let NetworkSpec::File(spec) = &experiment.network {
         set("/network/file/format", json!(spec.format()));
     }
-    set("/spectrum/modes", json!(plan.study.modes.wanted()));
-    set("/spectrum/tolerance", json!(plan.study.modes.tolerance()));
-    set("/msf/transient", json!(plan.study.msf.times.transient));
-    set("/msf/average", json!(plan.study.msf.times.average));
-    set("/msf/relative_error", json!(plan.study.msf.refinement.relative_error));
-    set("/msf/refinement_rounds", json!(plan.study.msf.refinement.max_rounds));
-    if let Some(sweep) = &plan.study.sweep {
+    set("/spectrum/modes", json!(study.modes.wanted()));
+    set("/spectrum/tolerance", json!(study.modes.tolerance()));
+    set("/msf/transient", json!(study.msf.times.transient));
+    set("/msf/average", json!(study.msf.times.average));
+    set("/msf/relative_error", json!(study.msf.refinement.relative_error));
+    set("/msf/refinement_rounds", json!(study.msf.refinement.max_rounds));
+    if let Some(sweep) = &study.sweep {
         set("/sweep/transient", json!(sweep.schedule.transient));
         set("/sweep/average", json!(sweep.schedule.average));
-        set("/sweep/component", json!(plan.node.model.components()[sweep.observables.component]));
+        set("/sweep/component", json!(node.model.components()[sweep.observables.component]));
         set("/sweep/pairs", json!(sweep.observables.pairs));
         if sweep.method == dynamics::Method::Rk4 {
             set("/sweep/tolerance", Value::Null);

@@ -11,8 +11,8 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
-use super::Answer;
-use experiment::spec::Trend;
+use crate::Trend;
+use crate::answer::Answer;
 
 /// A number may be so many standard errors off.
 const ERRORS: f64 = 2.0;
@@ -20,14 +20,32 @@ const ERRORS: f64 = 2.0;
 /// An error below this share of a bound is small beside it, as in a golden comparison.
 const SHARE_OF_BOUND: f64 = 0.25;
 
+/// A number of which something is claimed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Number {
     /// A value with its standard error, 0 where it is exact.
-    Known { value: f64, error: f64 },
+    Known {
+        /// The value.
+        value: f64,
+        /// Its standard error.
+        error: f64,
+    },
     /// Between the least and the most that it can be, in these words.
-    Between { least: f64, most: f64, words: String },
+    Between {
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
+        /// How that is said.
+        words: String,
+    },
     /// Looked for up to here, where it was not, in these words.
-    NoneUpTo { limit: f64, words: String },
+    NoneUpTo {
+        /// Up to where.
+        limit: f64,
+        /// How that is said.
+        words: String,
+    },
     /// There is none.
     None,
     /// It was not computed, for this reason.
@@ -35,15 +53,18 @@ pub enum Number {
 }
 
 impl Number {
+    /// One that has no error.
     pub fn exactly(value: f64) -> Self {
         Self::Known { value, error: 0.0 }
     }
 
+    /// One of which only an upper bound is known.
     pub fn at_most(limit: f64) -> Self {
         let words = format!("at most {limit}");
         Self::Between { least: f64::NEG_INFINITY, most: limit, words }
     }
 
+    /// One of which only a lower bound is known.
     pub fn at_least(limit: f64) -> Self {
         let words = format!("at least {limit}");
         Self::Between { least: limit, most: f64::INFINITY, words }

@@ -1,0 +1,79 @@
+//! What follows from Λ(σ): Λ(0), σ_c, critical couplings.
+
+use eigensync::msf::CriticalCoupling;
+use eigensync::numbers::four_digits;
+
+use super::spectrum;
+use crate::Number;
+use crate::found::Found;
+
+/// Λ(0).
+pub fn isolated(found: &Found<'_>) -> Vec<Number> {
+    let isolated = found.findings.msf.isolated;
+    vec![Number::Known { value: isolated.mean, error: isolated.standard_error }]
+}
+
+/// σ_c.
+pub fn sigma_c(found: &Found<'_>) -> Vec<Number> {
+    vec![match found.findings.msf.stable.sigma_c() {
+        Some(zero) => Number::Known { value: zero.sigma, error: zero.standard_error },
+        None => no_edge(found, 1.0),
+    }]
+}
+
+/// Whether σ_c is not known as well as was asked for.
+pub fn sigma_c_is_unrefined(found: &Found<'_>) -> bool {
+    found.findings.msf.stable.sigma_c().is_some_and(|zero| !zero.refined)
+}
+
+/// ε_k above which each of the claimed modes is stable.
+pub fn critical_couplings(found: &Found<'_>) -> Vec<Number> {
+    let findings = found.findings;
+    let eigenvalues = findings.spectrum.real_eigenvalues();
+    let number = |&mode: &usize| {
+        if mode > eigenvalues.len() {
+            return Number::Unknown(found.not_computed(mode));
+        }
+        let is_meant = |c: &&CriticalCoupling| c.mode == mode && c.stable_above;
+        match findings.critical.iter().find(is_meant) {
+            // The zero of Λ is the same for all modes, and does not change their order.
+            Some(c) if found.at.in_order && c.epsilon.is_finite() => Number::Known {
+                value: c.epsilon,
+                error: c.epsilon * spectrum::error(found, mode) / -c.lambda,
+            },
+            Some(c) if c.epsilon.is_finite() => {
+                Number::Known { value: c.epsilon, error: c.standard_error }
+            }
+            Some(_) => Number::None,
+            None => no_edge(found, -eigenvalues[mode - 1]),
+        }
+    };
+    found.at.modes.iter().flatten().map(number).collect()
+}
+
+/// Whether any of them follows from a zero that is not known as well as was asked for.
+pub fn couplings_are_unrefined(found: &Found<'_>) -> bool {
+    let modes = found.at.modes.as_deref().unwrap_or_default();
+    found.findings.critical.iter().any(|c| modes.contains(&c.mode) && !c.refined)
+}
+
+/// Where there is no σ from which on modes are stable: it may lie where nothing was looked at. A coupling
+/// is that σ over a rate.
+fn no_edge(found: &Found<'_>, rate: f64) -> Number {
+    let msf = &found.findings.msf;
+    let [first, last] = [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]];
+    let [from, to] = [first, last].map(four_digits);
+    if msf.stable.intervals.is_empty() {
+        let words = format!("nothing is stable from sigma = {from} to {to}");
+        return match first {
+            0.0 => Number::NoneUpTo { limit: last / rate, words },
+            _ => Number::Unknown(words),
+        };
+    }
+    match msf.stable.unknown_below() {
+        Some(_) => Number::Unknown(format!(
+            "Λ < 0 at sigma = {from}, the smallest that was looked at: where that begins is not known"
+        )),
+        None => Number::None,
+    }
+}
