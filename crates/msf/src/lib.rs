@@ -17,6 +17,8 @@ mod reach;
 mod rest;
 mod stable_region;
 mod step;
+mod stretches;
+mod transitions;
 mod zero;
 mod zeros;
 
@@ -27,5 +29,7 @@ pub use error::MsfError;
 pub use isolated::Isolated;
 pub use reach::reach;
 pub use stable_region::{End, Interval, StableRegion};
+pub use stretches::{Decided, KnownModes, Others, Stability, Stretch};
+pub use transitions::{Eigenspace, Transition, coupling_at, transitions};
 pub use zero::Zero;
 pub use zeros::{Advance, Refinement};
