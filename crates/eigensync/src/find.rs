@@ -4,17 +4,16 @@ use clustering::{
     CascadeTree, ClusteringError, State, StateLabels, hold_against_links, merge_equal_clusters,
 };
 use dynamics::Progress;
-use msf::{CriticalCoupling, MasterStability, StableRegion};
+use msf::{CriticalCoupling, MasterStability, Stability, StableRegion};
 use rayon::prelude::*;
 use spectra::{RealModes, Spectrum};
 
 use crate::compute::{Plainly, not_curve, told};
 use crate::numbers::{four_digits, plain, two_digits};
-use crate::prediction::Known;
 use crate::synchrony::{Evidence, assumed_above};
 use crate::{
     Compute, Error, Findings, Observer, Simulated, Study, Synchrony, Warning, Warnings, agreement,
-    doubts, stability,
+    doubts, prediction, stability,
 };
 
 /// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
@@ -100,19 +99,27 @@ pub fn find_by<C: Compute>(
         );
         warnings.add("cascade", message);
     }
-    let known = Known { spectrum: &spectrum, fastest };
-    if let Some(top) = known.top(stable) {
+    let stability = prediction::stability(stable, msf.sigma[0], &spectrum, fastest)?;
+    if let Some(top) = stability.decided.to {
         warnings.add("cascade", beyond(study, spectrum.n_modes(), top));
     }
-    let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
+    let synchrony = Synchrony::of(&Evidence {
+        stable,
+        stability: &stability,
+        slowest: modes.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0),
+        fastest,
+        critical: &critical,
+        n_components: study.n_components,
+        n_rests: msf.rests.len(),
+        looked: &msf.sigma,
+        fastest_rate,
+    });
+    let Stability { stretches, .. } = stability;
     let states = compute
-        .stage("clusters", Some(n_states), |progress| {
-            let mut states = known.states(stable, study.rule, &|n| {
+        .stage("clusters", Some(stretches.len() as u64), |progress| {
+            let mut states = prediction::states(&spectrum, stretches, study.rule, &|n| {
                 let _ = progress(n);
             })?;
-            if stable.intervals.is_empty() {
-                known.end_where_the_look_began(&mut states, msf.sigma[0]);
-            }
             let matrix = study.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, study.rule, EQUITABLE)?;
             Ok(states)
@@ -132,16 +139,6 @@ pub fn find_by<C: Compute>(
             .stage("agreement", None, |_| agreement::at_all(study, &spectrum, &states, &sweeps))?;
         simulated = Some(sweeps);
     }
-    let synchrony = Synchrony::of(&Evidence {
-        known,
-        stable,
-        critical: &critical,
-        states: &states,
-        n_components: study.n_components,
-        n_rests: msf.rests.len(),
-        looked: &msf.sigma,
-        fastest_rate,
-    });
     let cascade = merge_equal_clusters(&states);
     let labels = compute
         .stage("labels", Some(cascade.len() as u64), |progress| {

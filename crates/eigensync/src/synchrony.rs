@@ -6,12 +6,10 @@
 //! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
 //! same one.
 
-use clustering::State;
-use msf::{CriticalCoupling, End, Interval, StableRegion};
+use msf::{CriticalCoupling, End, Interval, Stability, StableRegion};
 use serde::Serialize;
 
 use crate::numbers::{four_digits, three_digits, two_digits};
-use crate::prediction::Known;
 
 /// The verdict with its numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -41,11 +39,13 @@ pub struct EpsilonRange {
 
 /// What a verdict is made from.
 pub struct Evidence<'a> {
-    pub known: Known<'a>,
     pub stable: &'a StableRegion,
+    pub stability: &'a Stability,
+    /// The largest λ below 0: zero modes are zero exactly.
+    pub slowest: Option<f64>,
+    /// λ_N, where it is known.
+    pub fastest: Option<f64>,
     pub critical: &'a [CriticalCoupling],
-    /// Predicted states, neighbours of equal clusters not yet merged.
-    pub states: &'a [State],
     pub n_components: usize,
     /// In how many different states isolated oscillators come to rest; 0 where they do not.
     pub n_rests: usize,
@@ -78,10 +78,11 @@ impl Synchrony {
 impl Evidence<'_> {
     /// Where no mode is unstable, and the range begins and ends by a mode that becomes so.
     fn ranges(&self) -> Vec<EpsilonRange> {
-        let synchronous = self.states.iter().filter(|state| state.unstable_modes.is_empty());
+        let Stability { stretches, decided, .. } = self.stability;
+        let synchronous = stretches.iter().filter(|stretch| stretch.unstable_modes.is_empty());
         let mut ranges: Vec<EpsilonRange> = synchronous
-            .map(|state| {
-                let (from, to) = state.epsilon;
+            .map(|stretch| {
+                let (from, to) = stretch.epsilon;
                 EpsilonRange {
                     from,
                     from_standard_error: self.error_at(from),
@@ -90,12 +91,11 @@ impl Evidence<'_> {
                 }
             })
             .collect();
-        if let (Some(top), Some(highest)) = (self.known.top(self.stable), ranges.first_mut())
+        if let (Some(top), Some(highest)) = (decided.to, ranges.first_mut())
             && highest.to == Some(top)
         {
             // λ_N is of no mode that was computed.
-            let zero = self.stable.intervals.first().and_then(|first| first.to.zero());
-            highest.to_standard_error = zero.map(|zero| zero.standard_error / zero.sigma * top);
+            highest.to_standard_error = decided.to_standard_error;
         }
         ranges.reverse();
         ranges
@@ -106,12 +106,8 @@ impl Evidence<'_> {
         self.critical.iter().find(here).map(|critical| critical.standard_error)
     }
 
-    fn slowest(&self) -> Option<f64> {
-        self.known.slowest()
-    }
-
     fn eigenratio(&self) -> Option<f64> {
-        Some(self.known.fastest? / self.slowest()?)
+        Some(self.fastest? / self.slowest?)
     }
 
     /// What a verdict takes for granted: that σ beyond the look are stable.
@@ -202,11 +198,11 @@ fn ratio(interval: &Interval) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use clustering::{ClusterRule, cascade};
     use graph::{CouplingMatrix, Network, Normalization};
     use spectra::{Request, leading_modes};
 
     use super::*;
+    use crate::prediction;
 
     /// The verdict on a network of links of weight 1, with all of its modes.
     fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
@@ -227,16 +223,19 @@ mod tests {
         let w = CouplingMatrix::new(&network, Normalization::Laplacian);
         let spectrum = leading_modes(&w, &Request::default()).unwrap();
         let stable = StableRegion { intervals };
-        let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
-        let fastest = spectrum.real_eigenvalues().last().copied();
+        let looked = [0.0, 20.0, 50.0];
+        let eigenvalues = spectrum.real_eigenvalues();
+        let fastest = eigenvalues.last().copied();
+        let stability = prediction::stability(&stable, looked[0], &spectrum, fastest).unwrap();
         let evidence = Evidence {
-            known: Known { spectrum: &spectrum, fastest },
-            critical: &[],
-            states: &states,
             stable: &stable,
+            stability: &stability,
+            slowest: eigenvalues.iter().copied().find(|&lambda| lambda < 0.0),
+            fastest,
+            critical: &[],
             n_components,
             n_rests,
-            looked: &[0.0, 20.0, 50.0],
+            looked: &looked,
             fastest_rate: fastest.map_or(0.0, f64::abs),
         };
         Synchrony::of(&evidence).verdict
