@@ -4,9 +4,9 @@ use clustering::{
     CascadeTree, ClusteringError, State, StateLabels, hold_against_links, merge_equal_clusters,
 };
 use dynamics::Progress;
-use msf::{CriticalCoupling, MasterStability, Stability, StableRegion};
+use msf::{MasterStability, Stability, StableRegion};
 use rayon::prelude::*;
-use spectra::{RealModes, Spectrum};
+use spectra::Spectrum;
 
 use crate::compute::{Plainly, not_curve, told};
 use crate::numbers::{four_digits, plain, two_digits};
@@ -84,13 +84,9 @@ pub fn find_by<C: Compute>(
     let request = study.modes.request(stable, n_nodes);
     let spectrum = compute.spectrum(study, &request)?;
     warn_of_weak_links(&spectrum, &mut warnings);
-    // Zero modes are zero exactly, and no others are.
-    let modes = spectrum.real_modes();
-    let mut critical = msf::critical_couplings(stable, &modes.eigenvalues, 0.0);
-    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &modes));
     let fastest = fastest(study, &spectrum, stable, &mut warnings);
-    let fastest_rate = fastest.map_or_else(|| strongest(study), f64::abs);
-    if let Some(above) = assumed_above(stable, fastest_rate) {
+    let assumed_above = assumed_above(stable, fastest.unwrap_or_else(|| strongest(study)));
+    if let Some(above) = assumed_above {
         let looked = four_digits(msf.sigma[msf.sigma.len() - 1]);
         let above = four_digits(above);
         let message = format!(
@@ -106,15 +102,14 @@ pub fn find_by<C: Compute>(
     let synchrony = Synchrony::of(&Evidence {
         stable,
         stability: &stability,
-        slowest: modes.eigenvalues.iter().copied().find(|&lambda| lambda < 0.0),
+        slowest: spectrum.real_eigenvalues().into_iter().find(|&lambda| lambda < 0.0),
         fastest,
-        critical: &critical,
         n_components: study.n_components,
         n_rests: msf.rests.len(),
         looked: &msf.sigma,
-        fastest_rate,
+        assumed_above,
     });
-    let Stability { stretches, .. } = stability;
+    let Stability { transitions, stretches, .. } = stability;
     let states = compute
         .stage("clusters", Some(stretches.len() as u64), |progress| {
             let mut states = prediction::states(&spectrum, stretches, study.rule, &|n| {
@@ -154,7 +149,7 @@ pub fn find_by<C: Compute>(
         trees,
         spectrum,
         msf,
-        critical,
+        transitions,
         synchrony,
         simulated,
         step_effects,
@@ -202,14 +197,6 @@ fn refuse_overflow(msf: &MasterStability) -> Result<(), Error> {
     match msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) {
         Some(at) => Err(Error::Overflow { sigma: msf.sigma[at] }),
         None => Ok(()),
-    }
-}
-
-/// ε_k = σ/|λ_k| is as uncertain as both; λ_k is so where the links behind it are lost in rounding.
-fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, modes: &RealModes<'_>) {
-    let relative = modes.error(critical.mode - 1) / critical.lambda.abs();
-    if critical.epsilon.is_finite() {
-        critical.standard_error = critical.standard_error.hypot(critical.epsilon * relative);
     }
 }
 

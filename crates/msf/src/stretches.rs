@@ -10,8 +10,8 @@
 //! next one would count; where the stable set ends at a σ₂, the fastest modes leave it as ε grows, and
 //! from leading modes and λ_N alone it is known that none has done so while ε < σ₂ / |λ_N|.
 
-use crate::transitions::SAME_COUPLING;
-use crate::{Eigenspace, Interval, StableRegion, Transition, coupling_at, transitions};
+use crate::transitions::{SAME_COUPLING, transitions};
+use crate::{Eigenspace, Interval, StableRegion, Transition, coupling_at};
 
 /// What is known of the modes of a coupling matrix, and where the look at Λ(σ) began.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ pub struct Stretch {
 /// Where modes change their stability, and which are unstable in between.
 #[derive(Clone, Debug)]
 pub struct Stability {
-    /// As [`transitions`] has them.
+    /// All of them, eigenspace by eigenspace, and within one by ascending σ.
     pub transitions: Vec<Transition>,
     /// Where the stretches lie.
     pub decided: Decided,
@@ -139,39 +139,45 @@ fn stretches(
         return Vec::new();
     }
     let mut modes = Modes::at_infinity(stable, eigenspaces);
-    let lowest = decided.from * (1.0 + SAME_COUPLING);
-    let counts = |t: &&Transition| t.lambda < 0.0 && t.epsilon > lowest;
-    let mut down: Vec<&Transition> = transitions.iter().filter(counts).collect();
-    down.sort_by(|a, b| {
-        b.epsilon.total_cmp(&a.epsilon).then(b.zero.sigma.total_cmp(&a.zero.sigma))
-    });
+    let down = in_order(transitions, decided.from);
     // Those of ε beyond all numbers are passed as well.
-    let is_passed = |t: &&Transition| t.epsilon >= decided.to.unwrap_or(f64::INFINITY);
-    let (passed, mut down) = down.split_at(down.partition_point(is_passed));
-    modes.pass(passed);
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let is_above = |t: &&Transition| t.epsilon >= decided.to.unwrap_or(f64::INFINITY);
+    let (above, mut down) = down.split_at(down.partition_point(is_above));
+    modes.pass(above);
+    let mut stretches = Vec::new();
     let mut to = decided.to;
-    loop {
-        let from = down.first().map_or(decided.from, |next| next.epsilon);
-        let unstable_modes = modes.unstable();
-        match stretches.last_mut() {
-            Some(last) if last.unstable_modes == unstable_modes => last.epsilon.0 = from,
-            _ => {
-                stretches.push(Stretch { epsilon: (from, to), unstable_modes, truncated: false });
-            }
-        }
-        if down.is_empty() {
-            break;
-        }
-        let is_same = |t: &&Transition| t.epsilon >= from * (1.0 - SAME_COUPLING);
-        let (passed, rest) = down.split_at(down.partition_point(is_same));
-        modes.pass(passed);
-        (down, to) = (rest, Some(from));
+    while let Some(&next) = down.first() {
+        let from = next.epsilon;
+        add(&mut stretches, (from, to), modes.unstable());
+        let is_here = |t: &&Transition| t.epsilon >= from * (1.0 - SAME_COUPLING);
+        let (here, below) = down.split_at(down.partition_point(is_here));
+        modes.pass(here);
+        (down, to) = (below, Some(from));
     }
+    add(&mut stretches, (decided.from, to), modes.unstable());
     if let Some(last) = stretches.last_mut() {
         last.truncated = decided.from > 0.0;
     }
     stretches
+}
+
+/// The transitions above an ε, from the largest ε down, and where one mode has several at once, as
+/// beyond all numbers, in the order in which its σ falls.
+fn in_order(transitions: &[Transition], epsilon: f64) -> Vec<&Transition> {
+    let is_above = |t: &&Transition| t.lambda < 0.0 && t.epsilon > epsilon * (1.0 + SAME_COUPLING);
+    let mut down: Vec<&Transition> = transitions.iter().filter(is_above).collect();
+    down.sort_by(|a, b| {
+        b.epsilon.total_cmp(&a.epsilon).then(b.zero.sigma.total_cmp(&a.zero.sigma))
+    });
+    down
+}
+
+/// Adds a stretch, or makes the last one longer if the same modes are unstable there.
+fn add(stretches: &mut Vec<Stretch>, epsilon: (f64, Option<f64>), unstable_modes: Vec<usize>) {
+    match stretches.last_mut() {
+        Some(last) if last.unstable_modes == unstable_modes => last.epsilon.0 = epsilon.0,
+        _ => stretches.push(Stretch { epsilon, unstable_modes, truncated: false }),
+    }
 }
 
 /// Which modes are unstable, as ε falls.

@@ -53,11 +53,6 @@ impl Transition {
             standard_error: if epsilon.is_finite() { of_zero.hypot(of_lambda) } else { of_zero },
         }
     }
-
-    /// Whether this is the transition at a coupling strength, up to rounding.
-    pub fn is_at(&self, epsilon: f64) -> bool {
-        (self.epsilon - epsilon).abs() <= SAME_COUPLING * epsilon
-    }
 }
 
 /// ε at which a mode of eigenvalue λ has this σ = −ελ.
@@ -66,9 +61,14 @@ pub fn coupling_at(sigma: f64, lambda: f64) -> f64 {
 }
 
 /// All transitions, eigenspace by eigenspace, and within one by ascending σ.
-pub fn transitions(stable: &StableRegion, eigenspaces: &[Eigenspace]) -> Vec<Transition> {
+pub(crate) fn transitions(stable: &StableRegion, eigenspaces: &[Eigenspace]) -> Vec<Transition> {
     let of = |space| stable.zeros().map(move |zero| Transition::new(space, zero));
     eigenspaces.iter().flat_map(of).collect()
+}
+
+/// The transition at a coupling strength, the first one if several differ by rounding.
+pub fn transition_at(transitions: &[Transition], epsilon: f64) -> Option<&Transition> {
+    transitions.iter().find(|t| (t.epsilon - epsilon).abs() <= SAME_COUPLING * epsilon)
 }
 
 #[cfg(test)]
@@ -122,6 +122,7 @@ mod tests {
         let found = transitions(&window, &[space(1..3, -2.0)]);
         let ends: Vec<_> = found.iter().map(|t| (t.epsilon, t.zero.falling)).collect();
         assert_eq!(ends, [(0.5, true), (2.0, false)]);
-        assert!(found[0].is_at(0.5 * (1.0 + 1e-13)) && !found[0].is_at(0.5 * (1.0 + 1e-11)));
+        assert_eq!(transition_at(&found, 2.0 * (1.0 + 1e-13)), Some(&found[1]));
+        assert_eq!(transition_at(&found, 2.0 * (1.0 + 1e-11)), None);
     }
 }

@@ -232,7 +232,10 @@ impl Judge<'_> {
             Quantity::SigmaC => findings.msf.stable.sigma_c().is_some_and(|zero| !zero.refined),
             Quantity::CriticalCouplings => {
                 let modes = self.spec.at.modes.as_deref().unwrap_or_default();
-                findings.critical.iter().any(|c| modes.contains(&c.mode) && !c.refined)
+                let is_unrefined = |mode: &usize| {
+                    findings.transitions_of(mode - 1).any(|transition| !transition.zero.refined)
+                };
+                modes.iter().any(is_unrefined)
             }
             Quantity::CascadeClusters | Quantity::CascadeOrder => {
                 findings.msf.stable.zeros().any(|zero| !zero.refined)

@@ -181,18 +181,20 @@ proptest! {
     }
 
     #[test]
-    fn stretches_follow_one_another_without_gaps(
+    fn stretches_follow_one_another_and_meet_at_transitions(
         stable in any_region(), rates in prop::collection::vec(0.01..20.0f64, 0..12),
     ) {
         let mut lambdas: Vec<f64> = rates.iter().map(|rate| -rate).collect();
         lambdas.sort_by(|a, b| b.total_cmp(a));
-        let Stability { stretches, .. } = Stability::new(&stable, &all(&lambdas));
+        let Stability { stretches, transitions, .. } = Stability::new(&stable, &all(&lambdas));
         prop_assert_eq!(stretches[0].epsilon.1, None);
         prop_assert_eq!(stretches.last().unwrap().epsilon.0, 0.0);
         for pair in stretches.windows(2) {
             prop_assert_eq!(Some(pair[0].epsilon.0), pair[1].epsilon.1);
             prop_assert!(pair[1].epsilon.0 < pair[0].epsilon.0);
             prop_assert_ne!(&pair[0].unstable_modes, &pair[1].unstable_modes);
+            // To the last bit.
+            prop_assert!(transitions.iter().any(|t| t.epsilon == pair[0].epsilon.0));
         }
     }
 }

@@ -21,7 +21,7 @@ impl Judge<'_> {
             }
             Quantity::SigmaC => vec![match msf.stable.sigma_c() {
                 Some(zero) => Number::Known { value: zero.sigma, error: zero.standard_error },
-                None => self.no_edge(1.0),
+                None => self.no_edge(-1.0),
             }],
             Quantity::SimulatedOnset => vec![self.onset()],
             Quantity::SimulatedError => {
@@ -108,33 +108,32 @@ impl Judge<'_> {
             if mode > eigenvalues.len() {
                 return self.not_computed(mode);
             }
-            let is_meant = |c: &&msf::CriticalCoupling| c.mode == mode && c.stable_above;
-            match findings.critical.iter().find(is_meant) {
+            match findings.transitions_of(mode - 1).find(|transition| transition.zero.falling) {
                 // The zero of Λ is the same for all modes, and does not change their order.
-                Some(c) if self.spec.trend.is_some() && c.epsilon.is_finite() => Number::Known {
-                    value: c.epsilon,
-                    error: c.epsilon * self.eigenvalue_error(mode) / -c.lambda,
+                Some(t) if self.spec.trend.is_some() && t.epsilon.is_finite() => Number::Known {
+                    value: t.epsilon,
+                    error: t.epsilon * self.eigenvalue_error(mode) / -t.lambda,
                 },
-                Some(c) if c.epsilon.is_finite() => {
-                    Number::Known { value: c.epsilon, error: c.standard_error }
+                Some(t) if t.epsilon.is_finite() => {
+                    Number::Known { value: t.epsilon, error: t.standard_error }
                 }
                 Some(_) => Number::None,
-                None => self.no_edge(-eigenvalues[mode - 1]),
+                None => self.no_edge(eigenvalues[mode - 1]),
             }
         };
         self.spec.at.modes.iter().flatten().map(number).collect()
     }
 
-    /// Where there is no σ from which on modes are stable: it may lie where nothing was looked at. A
-    /// coupling is that σ over a rate.
-    fn no_edge(&self, rate: f64) -> Number {
+    /// Where there is no σ from which on a mode of eigenvalue λ is stable: it may lie where nothing was
+    /// looked at. σ_c is the coupling of λ = −1.
+    fn no_edge(&self, lambda: f64) -> Number {
         let msf = &self.findings.msf;
         let [first, last] = [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]];
         let [from, to] = [first, last].map(four_digits);
         if msf.stable.intervals.is_empty() {
             let words = format!("nothing is stable from sigma = {from} to {to}");
             return match first {
-                0.0 => Number::NoneUpTo { limit: last / rate, words },
+                0.0 => Number::NoneUpTo { limit: msf::coupling_at(last, lambda), words },
                 _ => Number::Unknown(words),
             };
         }
