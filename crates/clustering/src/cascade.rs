@@ -1,27 +1,18 @@
-//! The cascade of predicted states: as ε falls from infinity to zero, eigenspaces of σ = −ελ leave
-//! (and enter) the stable set at the couplings ε = σ_edge / |λ|, and between two of these the
-//! unstable modes, and so the clusters, stay the same.
+//! The cascade of predicted states: as ε falls from infinity to zero, modes become unstable (or stable)
+//! at their transitions, and between two of these the unstable modes, and so the clusters, stay the
+//! same. Which modes are unstable where is given.
 //!
-//! Eigenvalue 0 has σ = 0 at every ε: the zero modes of a network of several components are unstable
-//! throughout, unless σ = 0 is stable itself, where oscillators are at rest.
-//!
-//! Source: Fan, Wang & Wang (2023), Sec. II, for a stable set σ > σ_c; bounded windows and
-//! unions of intervals follow from the same relation.
+//! Source: Fan, Wang & Wang (2023), Sec. II.
 
-use std::ops::Range;
 use std::sync::Arc;
 
-use msf::StableRegion;
 use spectra::{RealModes, Spectrum};
 
 use crate::coincidences::Coincidences;
 use crate::exact::ExactClusters;
 use crate::linkage::clusters_of_each;
-use crate::modes::{check_finite, check_shapes, check_synchronous_mode, transverse};
+use crate::modes::{check_finite, check_shapes, check_synchronous_mode, chosen_eigenspaces};
 use crate::{ClusteringError, Partition};
-
-/// Couplings closer than this, relatively, are one: they differ by rounding.
-const SAME_COUPLING: f64 = 1e-12;
 
 /// What makes a cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +21,17 @@ pub enum ClusterRule {
     Exact,
     /// Single linkage of δe_ij at a threshold: [`crate::EigenvectorDistance::clusters_within`].
     Threshold(f64),
+}
+
+/// A range of ε in which the same modes are unstable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    /// Open range of the coupling strength, from below; no upper end where it is unbounded.
+    pub epsilon: (f64, Option<f64>),
+    /// Unstable transverse modes, from 0, ascending.
+    pub unstable_modes: Vec<usize>,
+    /// Whether the range ends only because no more is known below.
+    pub truncated: bool,
 }
 
 /// One predicted state.
@@ -50,9 +52,7 @@ pub struct State {
     pub cells: Arc<Partition>,
     /// Clusters that chance alone explains, which were taken apart.
     pub coincidences: Option<Coincidences>,
-    /// Whether the range ends only because no more is known: at its lower end the last computed
-    /// eigenspace becomes unstable, and others may with it, or the next ones may; or a mode comes to
-    /// a σ below all that were looked at.
+    /// Whether the range ends only because no more is known below.
     pub truncated: bool,
 }
 
@@ -70,38 +70,21 @@ impl State {
     }
 }
 
-/// Every predicted state, from the largest couplings down.
+/// The predicted state of every stretch, from the largest couplings down.
 ///
-/// The ranges follow one another without gaps from infinity to ε = 0; neighbours differ in their
-/// unstable modes, though not always in their clusters (see [`merge_equal_clusters`]). An interval
-/// of the stable set without an upper end counts as unbounded.
-///
-/// From a partial spectrum (leading modes only) the states reach down to where the last computed
-/// eigenspace becomes unstable, as modes that were not computed may follow at once, or to where an
-/// eigenvalue at the spectrum's cutoff would; the last state then is `truncated`.
+/// Neighbours differ in their unstable modes, though not always in their clusters (see
+/// [`merge_equal_clusters`]). Reports every state whose clusters it has found.
 ///
 /// # Errors
-/// - [`ClusteringError::PartialSpectrum`] for a partial spectrum where the stable set is bounded
-///   above or empty, and [`ClusteringError::NoTransverseMode`] for one of nothing but zeros.
-/// - [`ClusteringError::NoSynchronousMode`], [`ClusteringError::NotFinite`] (of any mode),
-///   [`ClusteringError::SpectrumTooRough`] and [`ClusteringError::BadThreshold`] as
-///   [`crate::EigenvectorDistance`] has them.
+/// [`ClusteringError::NoSynchronousMode`], [`ClusteringError::NotFinite`] (of any mode),
+/// [`ClusteringError::SpectrumTooRough`], [`ClusteringError::BadThreshold`], and those of unstable modes
+/// that are not whole eigenspaces of the spectrum, as [`crate::EigenvectorDistance`] has them.
+///
+/// # Panics
+/// If the stretches do not follow one another from the largest ε down.
 pub fn cascade(
     spectrum: &Spectrum,
-    stable: &StableRegion,
-    rule: ClusterRule,
-) -> Result<Vec<State>, ClusteringError> {
-    cascade_reported(spectrum, stable, rule, &|_| {})
-}
-
-/// [`cascade`], which reports every state whose clusters it has found; there are about as many as
-/// eigenspaces for each end of a stable interval.
-///
-/// # Errors
-/// Those of [`cascade`].
-pub fn cascade_reported(
-    spectrum: &Spectrum,
-    stable: &StableRegion,
+    stretches: Vec<Stretch>,
     rule: ClusterRule,
     progress: &dyn Fn(u64),
 ) -> Result<Vec<State>, ClusteringError> {
@@ -109,25 +92,22 @@ pub fn cascade_reported(
     check_shapes(spectrum);
     check_synchronous_mode(spectrum)?;
     check_finite(spectrum, &(1..spectrum.eigenvalues.len()).collect::<Vec<_>>())?;
-    let eigenspaces = Eigenspace::of(spectrum);
-    let lowest = lowest_coupling(spectrum, &eigenspaces, stable)?;
-    let stretches = stretches(&eigenspaces, stable, lowest);
+    check_stretches(spectrum, &stretches)?;
     let sets: Vec<&[usize]> = stretches.iter().map(|s| &s.unstable_modes[..]).collect();
     let clusters = match rule {
         ClusterRule::Exact => exact_clusters(spectrum, &sets, progress)?,
         ClusterRule::Threshold(threshold) => near_clusters(spectrum, &sets, threshold, progress)?,
     };
-    let last = stretches.len() - 1;
-    let state = |(number, (stretch, clusters)): (usize, (Stretch, Clusters))| State {
+    let state = |(stretch, clusters): (Stretch, Clusters)| State {
         epsilon: stretch.epsilon,
         n_unstable: (stretch.unstable_modes.len(), stretch.unstable_modes.len()),
         unstable_modes: stretch.unstable_modes,
         clusters: clusters.together,
         cells: clusters.alike,
         coincidences: None,
-        truncated: number == last && lowest > 0.0,
+        truncated: stretch.truncated,
     };
-    Ok(stretches.into_iter().zip(clusters).enumerate().map(state).collect())
+    Ok(stretches.into_iter().zip(clusters).map(state).collect())
 }
 
 /// The states with neighbours of equal clusters merged, as an observer of clusters sees them.
@@ -155,107 +135,16 @@ pub fn merge_equal_clusters(states: &[State]) -> Vec<State> {
     merged
 }
 
-/// The transverse modes of one eigenvalue.
-struct Eigenspace {
-    modes: Range<usize>,
-    /// |λ|, and exactly 0 for the eigenspace of the synchronous mode.
-    magnitude: f64,
-}
-
-impl Eigenspace {
-    fn of(spectrum: &RealModes<'_>) -> Vec<Self> {
-        let of = |space: &Range<usize>| {
-            let sum: f64 = spectrum.eigenvalues[space.clone()].iter().sum();
-            let magnitude = if space.start == 0 { 0.0 } else { -sum / space.len() as f64 };
-            Self { modes: transverse(space), magnitude }
-        };
-        spectrum.eigenspaces.iter().map(of).collect()
+/// Ranges of ε that follow one another, and whole eigenspaces in each.
+fn check_stretches(spectrum: &RealModes<'_>, stretches: &[Stretch]) -> Result<(), ClusteringError> {
+    for pair in stretches.windows(2) {
+        let (above, below) = (pair[0].epsilon, pair[1].epsilon);
+        assert!(below.1 == Some(above.0), "a stretch of ε over {below:?} below one over {above:?}");
     }
-}
-
-/// Down to which ε the computed modes decide: 0 if they are all there are, and all σ are known.
-fn lowest_coupling(
-    spectrum: &RealModes<'_>,
-    eigenspaces: &[Eigenspace],
-    stable: &StableRegion,
-) -> Result<f64, ClusteringError> {
-    let (computed, n_nodes) = (spectrum.eigenvalues.len(), spectrum.eigenvectors[0].len());
-    let unknown_below = lowest_looked_at(eigenspaces, stable);
-    if computed == n_nodes {
-        return Ok(unknown_below);
+    for stretch in stretches {
+        chosen_eigenspaces(spectrum, &stretch.unstable_modes)?;
     }
-    let of_cutoff = spectrum.cutoff.map_or(0.0, |cutoff| -cutoff);
-    let largest = eigenspaces.last().map_or(0.0, |space| space.magnitude).max(of_cutoff);
-    if largest == 0.0 {
-        return Err(ClusteringError::NoTransverseMode { computed, n_nodes });
-    }
-    match stable.intervals.last() {
-        Some(interval) if interval.upper().is_none() => {
-            Ok(unknown_below.max(interval.lower() / largest))
-        }
-        _ => Err(ClusteringError::PartialSpectrum { computed, n_nodes }),
-    }
-}
-
-/// ε at which the slowest mode comes to the lowest σ that was looked at, if the stable set begins
-/// only there; else 0.
-fn lowest_looked_at(eigenspaces: &[Eigenspace], stable: &StableRegion) -> f64 {
-    let slowest = eigenspaces.iter().map(|space| space.magnitude).find(|&lambda| lambda > 0.0);
-    stable.unknown_below().zip(slowest).map_or(0.0, |(sigma, lambda)| sigma / lambda)
-}
-
-/// The ranges of ε between neighbouring transitions, from the largest down to `lowest`.
-fn ranges(
-    eigenspaces: &[Eigenspace],
-    stable: &StableRegion,
-    lowest: f64,
-) -> Vec<(f64, Option<f64>)> {
-    let edges = stable.intervals.iter().flat_map(|i| [Some(i.lower()), i.upper()]);
-    let mut couplings: Vec<f64> = edges
-        .flatten()
-        .flat_map(|edge| eigenspaces.iter().map(move |space| edge / space.magnitude))
-        .filter(|&epsilon| epsilon.is_finite() && epsilon > lowest * (1.0 + SAME_COUPLING))
-        .collect();
-    couplings.sort_unstable_by(|a, b| b.total_cmp(a));
-    couplings.dedup_by(|lower, upper| *lower >= *upper * (1.0 - SAME_COUPLING));
-    let upper_ends = std::iter::once(None).chain(couplings.iter().copied().map(Some));
-    let lower_ends = couplings.iter().copied().chain([lowest]);
-    lower_ends.zip(upper_ends).collect()
-}
-
-/// Some coupling inside a range.
-fn inside(from: f64, to: Option<f64>) -> f64 {
-    match to {
-        Some(to) => 0.5 * (from + to),
-        None => 2.0 * from + 1.0,
-    }
-}
-
-fn unstable_modes(eigenspaces: &[Eigenspace], stable: &StableRegion, epsilon: f64) -> Vec<usize> {
-    eigenspaces
-        .iter()
-        .filter(|space| !stable.contains(epsilon * space.magnitude))
-        .flat_map(|space| space.modes.clone())
-        .collect()
-}
-
-/// A range of ε in which the same modes are unstable.
-struct Stretch {
-    epsilon: (f64, Option<f64>),
-    unstable_modes: Vec<usize>,
-}
-
-/// The stretches from the largest ε down, at least one; neighbours differ in their modes.
-fn stretches(eigenspaces: &[Eigenspace], stable: &StableRegion, lowest: f64) -> Vec<Stretch> {
-    let mut stretches: Vec<Stretch> = Vec::new();
-    for (from, to) in ranges(eigenspaces, stable, lowest) {
-        let unstable_modes = unstable_modes(eigenspaces, stable, inside(from, to));
-        match stretches.last_mut() {
-            Some(last) if last.unstable_modes == unstable_modes => last.epsilon.0 = from,
-            _ => stretches.push(Stretch { epsilon: (from, to), unstable_modes }),
-        }
-    }
-    stretches
+    Ok(())
 }
 
 /// The clusters of one stretch, and those of their nodes that no unstable mode tells apart.

@@ -60,25 +60,6 @@ pub enum ClusteringError {
         /// Largest such bound that is accepted.
         limit: f64,
     },
-    /// Modes that were not computed decide from the first state on.
-    #[error(
-        "{computed} of {n_nodes} modes were computed, but the stable set is bounded above (or \
-         empty), so that the most negative eigenvalues decide: compute all modes"
-    )]
-    PartialSpectrum {
-        /// Number of modes computed.
-        computed: usize,
-        /// Number of modes of the coupling matrix.
-        n_nodes: usize,
-    },
-    /// A partial spectrum of zeros says nothing of any coupling strength.
-    #[error("all {computed} computed eigenvalues of {n_nodes} are zero: compute more modes")]
-    NoTransverseMode {
-        /// Number of modes computed.
-        computed: usize,
-        /// Number of modes of the coupling matrix.
-        n_nodes: usize,
-    },
     /// A threshold that is negative or not finite.
     #[error("expected a threshold that is finite and not negative, found {threshold}")]
     BadThreshold {

@@ -2,9 +2,9 @@
 //! cascade of predicted states over the coupling strength ε and its tree, which clusters the links keep
 //! exact, regions under two thresholds, and how far two partitions or two distances agree.
 //!
-//! Integrates nothing and reads no files: it takes a [`spectra::Spectrum`] and a
-//! [`msf::StableRegion`]. Modes and nodes count from 0 here; mode 0, of eigenvalue λ_1 = 0, is the
-//! synchronous motion itself and never transverse.
+//! Integrates nothing and reads no files: it takes a [`spectra::Spectrum`], and which of its modes are
+//! unstable on each [`Stretch`] of ε. Modes and nodes count from 0 here; mode 0, of eigenvalue λ_1 = 0,
+//! is the synchronous motion itself and never transverse.
 
 mod agreement;
 mod assignment;
@@ -33,7 +33,7 @@ mod spread;
 mod tolerance;
 
 pub use agreement::{MaximumOverlap, adjusted_rand_index, maximum_overlap};
-pub use cascade::{ClusterRule, State, cascade, cascade_reported, merge_equal_clusters};
+pub use cascade::{ClusterRule, State, Stretch, cascade, merge_equal_clusters};
 pub use cascade_tree::{CascadeTree, TreeCluster, TreeEnd, TreeRow};
 pub use coincidences::Coincidences;
 pub use correlation::{Correlation, correlation_of_pairs, pearson, spearman};

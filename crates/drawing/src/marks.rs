@@ -3,27 +3,25 @@
 use clustering::State;
 use eigensync::Findings;
 use figures::{Label, Marker, MarkerGroup, MarkerStyle};
-use msf::{CriticalCoupling, StableRegion};
+use msf::{StableRegion, Transition};
 
 use experiment::Plan;
 
-/// Critical couplings of one transition differ by rounding alone, relative to their size.
+/// Couplings that differ by less, relative to their size, differ by rounding.
 const SAME: f64 = 1e-9;
 
-/// The predicted critical couplings within the sweep at which clusters change or those of the modes
-/// that are asked for, one for each run of equal eigenvalues.
+/// The predicted transitions within the sweep at which clusters change or those of the modes that are
+/// asked for, by the first mode of each eigenspace.
 pub fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
-    let eigenspaces = findings.spectrum.real_modes().eigenspaces;
-    let leads = |mode: usize| eigenspaces.iter().any(|e| e.start + 1 == mode);
-    let is_wanted = |critical: &CriticalCoupling| match &plan.figure.mark_modes {
-        Some(modes) => modes.contains(&critical.mode),
-        None => changes_clusters(critical.epsilon, &findings.cascade),
+    let is_wanted = |transition: &&Transition| match &plan.figure.mark_modes {
+        Some(modes) => modes.contains(&(transition.modes.start + 1)),
+        None => changes_clusters(transition.epsilon, &findings.cascade),
     };
-    let within = findings.critical.iter().filter(|c| (first..=last).contains(&c.epsilon));
-    let marked = within.filter(|c| leads(c.mode) && is_wanted(c));
-    let marker = |critical: &CriticalCoupling| Marker {
-        x: critical.epsilon,
-        label: Some(name(critical, &findings.msf.stable)),
+    let within = findings.transitions.iter().filter(|t| (first..=last).contains(&t.epsilon));
+    let marked = within.filter(is_wanted);
+    let marker = |transition: &Transition| Marker {
+        x: transition.epsilon,
+        label: Some(name(transition, &findings.msf.stable)),
     };
     MarkerGroup {
         style: MarkerStyle::Predicted,
@@ -44,20 +42,15 @@ fn changes_clusters(epsilon: f64, cascade: &[State]) -> bool {
 
 /// ε_k, and where a mode is stable between two ends, which of them: the smallest or the largest ε at
 /// which it is damped. Of several such windows ends are numbered as the zeros of Λ are.
-fn name(critical: &CriticalCoupling, stable: &StableRegion) -> Label {
-    let label = Label::math("ε").subscript(&critical.mode.to_string());
-    let zeros: Vec<f64> = stable.zeros().map(|zero| zero.sigma).collect();
-    match zeros.len() {
+fn name(Transition { modes, zero, .. }: &Transition, stable: &StableRegion) -> Label {
+    let label = Label::math("ε").subscript(&(modes.start + 1).to_string());
+    match stable.zeros().count() {
         1 => label,
         2 if stable.intervals.len() == 1 => {
-            label.superscript(if critical.stable_above { "min" } else { "max" })
+            label.superscript(if zero.falling { "min" } else { "max" })
         }
         _ => {
-            let sigma = critical.epsilon * critical.lambda.abs();
-            let is_nearer = |a: &usize, b: &usize| {
-                (zeros[*a] - sigma).abs().total_cmp(&(zeros[*b] - sigma).abs())
-            };
-            let number = (0..zeros.len()).min_by(is_nearer).map_or(0, |zero| zero + 1);
+            let number = 1 + stable.zeros().filter(|other| other.sigma < zero.sigma).count();
             label.superscript(&format!("({number})"))
         }
     }

@@ -21,9 +21,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let found = find(&study, &())?;
     println!("{}", found.synchrony.verdict);
-    for critical in &found.critical {
-        let epsilon = with_error(critical.epsilon, critical.standard_error);
-        println!("mode {} is stable from epsilon = {epsilon} on", critical.mode);
+    for transition in &found.transitions {
+        let epsilon = with_error(transition.epsilon, transition.standard_error);
+        println!(
+            "the mode of lambda = {} is stable from epsilon = {epsilon} on",
+            four_digits(transition.lambda)
+        );
     }
     for state in &found.cascade {
         println!("above {}: {:?}", four_digits(state.epsilon.0), state.clusters.clusters());

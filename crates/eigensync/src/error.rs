@@ -26,6 +26,17 @@ pub enum Error {
     /// The states over ε.
     #[error("the cascade could not be predicted: {0}")]
     Cascade(ClusteringError),
+    /// A part of the spectrum that says nothing of any coupling strength.
+    #[error(
+        "the cascade could not be predicted: all {computed} computed eigenvalues of {n_nodes} are \
+         zero: compute more modes"
+    )]
+    OnlyZeroModes {
+        /// Number of modes computed.
+        computed: usize,
+        /// Number of modes of the coupling matrix.
+        n_nodes: usize,
+    },
     /// Which clusters are exact.
     #[error("the clusters cannot be labelled: {0}")]
     Labels(ClusteringError),

@@ -4,17 +4,16 @@ use clustering::{
     CascadeTree, ClusteringError, State, StateLabels, hold_against_links, merge_equal_clusters,
 };
 use dynamics::Progress;
-use msf::{CriticalCoupling, MasterStability, StableRegion};
+use msf::{MasterStability, Stability, StableRegion};
 use rayon::prelude::*;
-use spectra::{RealModes, Spectrum};
+use spectra::Spectrum;
 
 use crate::compute::{Plainly, not_curve, told};
 use crate::numbers::{four_digits, plain, two_digits};
-use crate::prediction::Known;
 use crate::synchrony::{Evidence, assumed_above};
 use crate::{
     Compute, Error, Findings, Observer, Simulated, Study, Synchrony, Warning, Warnings, agreement,
-    doubts, stability,
+    doubts, prediction, stability,
 };
 
 /// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
@@ -85,13 +84,9 @@ pub fn find_by<C: Compute>(
     let request = study.modes.request(stable, n_nodes);
     let spectrum = compute.spectrum(study, &request)?;
     warn_of_weak_links(&spectrum, &mut warnings);
-    // Zero modes are zero exactly, and no others are.
-    let modes = spectrum.real_modes();
-    let mut critical = msf::critical_couplings(stable, &modes.eigenvalues, 0.0);
-    critical.iter_mut().for_each(|critical| with_error_of_eigenvalue(critical, &modes));
     let fastest = fastest(study, &spectrum, stable, &mut warnings);
-    let fastest_rate = fastest.map_or_else(|| strongest(study), f64::abs);
-    if let Some(above) = assumed_above(stable, fastest_rate) {
+    let assumed_above = assumed_above(stable, fastest.unwrap_or_else(|| strongest(study)));
+    if let Some(above) = assumed_above {
         let looked = four_digits(msf.sigma[msf.sigma.len() - 1]);
         let above = four_digits(above);
         let message = format!(
@@ -100,19 +95,26 @@ pub fn find_by<C: Compute>(
         );
         warnings.add("cascade", message);
     }
-    let known = Known { spectrum: &spectrum, fastest };
-    if let Some(top) = known.top(stable) {
+    let stability = prediction::stability(stable, msf.sigma[0], &spectrum, fastest)?;
+    if let Some(top) = stability.decided.to {
         warnings.add("cascade", beyond(study, spectrum.n_modes(), top));
     }
-    let n_states = (spectrum.eigenspaces.len() * stable.intervals.len()) as u64;
+    let synchrony = Synchrony::of(&Evidence {
+        stable,
+        stability: &stability,
+        slowest: spectrum.real_eigenvalues().into_iter().find(|&lambda| lambda < 0.0),
+        fastest,
+        n_components: study.n_components,
+        n_rests: msf.rests.len(),
+        looked: &msf.sigma,
+        assumed_above,
+    });
+    let Stability { transitions, stretches, .. } = stability;
     let states = compute
-        .stage("clusters", Some(n_states), |progress| {
-            let mut states = known.states(stable, study.rule, &|n| {
+        .stage("clusters", Some(stretches.len() as u64), |progress| {
+            let mut states = prediction::states(&spectrum, stretches, study.rule, &|n| {
                 let _ = progress(n);
             })?;
-            if stable.intervals.is_empty() {
-                known.end_where_the_look_began(&mut states, msf.sigma[0]);
-            }
             let matrix = study.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, study.rule, EQUITABLE)?;
             Ok(states)
@@ -132,16 +134,6 @@ pub fn find_by<C: Compute>(
             .stage("agreement", None, |_| agreement::at_all(study, &spectrum, &states, &sweeps))?;
         simulated = Some(sweeps);
     }
-    let synchrony = Synchrony::of(&Evidence {
-        known,
-        stable,
-        critical: &critical,
-        states: &states,
-        n_components: study.n_components,
-        n_rests: msf.rests.len(),
-        looked: &msf.sigma,
-        fastest_rate,
-    });
     let cascade = merge_equal_clusters(&states);
     let labels = compute
         .stage("labels", Some(cascade.len() as u64), |progress| {
@@ -157,7 +149,7 @@ pub fn find_by<C: Compute>(
         trees,
         spectrum,
         msf,
-        critical,
+        transitions,
         synchrony,
         simulated,
         step_effects,
@@ -205,14 +197,6 @@ fn refuse_overflow(msf: &MasterStability) -> Result<(), Error> {
     match msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) {
         Some(at) => Err(Error::Overflow { sigma: msf.sigma[at] }),
         None => Ok(()),
-    }
-}
-
-/// ε_k = σ/|λ_k| is as uncertain as both; λ_k is so where the links behind it are lost in rounding.
-fn with_error_of_eigenvalue(critical: &mut CriticalCoupling, modes: &RealModes<'_>) {
-    let relative = modes.error(critical.mode - 1) / critical.lambda.abs();
-    if critical.epsilon.is_finite() {
-        critical.standard_error = critical.standard_error.hypot(critical.epsilon * relative);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a study found, and questions that its numbers answer.
 
 use clustering::{CascadeTree, Partition, State, StateLabels};
-use msf::{CriticalCoupling, MasterStability};
+use msf::{MasterStability, Transition};
 use spectra::Spectrum;
 
 use crate::{Agreement, Seen, Simulated, StepEffect, Synchrony, Warning};
@@ -12,8 +12,8 @@ pub struct Findings {
     pub spectrum: Spectrum,
     /// Λ(σ) and its stable set.
     pub msf: MasterStability,
-    /// Where each mode changes its stability.
-    pub critical: Vec<CriticalCoupling>,
+    /// The critical couplings: where each eigenspace changes its stability, and by which zero of Λ.
+    pub transitions: Vec<Transition>,
     /// Whether, and where, all nodes synchronise.
     pub synchrony: Synchrony,
     /// Predicted states, from large ε down; neighbours differ in their clusters.
@@ -38,13 +38,25 @@ impl Findings {
         self.cascade.iter().find(|state| state.holds_at(epsilon)).map(|state| &*state.clusters)
     }
 
+    /// The transition at a coupling strength, such as an end of a predicted state; none at ends that are
+    /// none of a mode that was computed.
+    pub fn transition_at(&self, epsilon: f64) -> Option<&Transition> {
+        msf::transition_at(&self.transitions, epsilon)
+    }
+
+    /// The transitions of a mode, counted from 0, by ascending σ.
+    pub fn transitions_of(&self, mode: usize) -> impl Iterator<Item = &Transition> {
+        let first = self.transitions.partition_point(|transition| transition.modes.end <= mode);
+        self.transitions[first..].iter().take_while(move |t| t.modes.contains(&mode))
+    }
+
     /// The clusters predicted on either side of critical couplings that may, within two standard errors,
     /// lie on the other side of this ε; none for a side that is not predicted.
     pub fn predicted_about(&self, epsilon: f64) -> Vec<Option<&Partition>> {
-        let is_near = |c: &&CriticalCoupling| {
-            (c.epsilon - epsilon).abs() <= 2.0 * c.standard_error && c.epsilon.is_finite()
+        let is_near = |t: &&Transition| {
+            (t.epsilon - epsilon).abs() <= 2.0 * t.standard_error && t.epsilon.is_finite()
         };
-        let near: Vec<f64> = self.critical.iter().filter(is_near).map(|c| c.epsilon).collect();
+        let near: Vec<f64> = self.transitions.iter().filter(is_near).map(|t| t.epsilon).collect();
         let [low, high] =
             near.iter().fold([epsilon; 2], |[low, high], &at| [low.min(at), high.max(at)]);
         if near.is_empty() {

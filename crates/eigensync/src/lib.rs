@@ -41,7 +41,7 @@
 //! // Where Λ(σ) = 0, and from there where each mode loses stability.
 //! let sigma_c = found.msf.stable.sigma_c().expect("stable beyond one zero");
 //! assert!((sigma_c.sigma - 8.17).abs() < 0.1 + 4.0 * sigma_c.standard_error);
-//! assert_eq!(found.critical.len(), 5);
+//! assert_eq!(found.transitions.len(), 5);
 //!
 //! // The states over ε, from strong coupling down: all together, then two clusters of three.
 //! assert_eq!(found.cascade[0].clusters.clusters(), [[0, 1, 2, 3, 4, 5]]);

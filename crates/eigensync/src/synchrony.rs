@@ -6,12 +6,10 @@
 //! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
 //! same one.
 
-use clustering::State;
-use msf::{CriticalCoupling, End, Interval, StableRegion};
+use msf::{End, Interval, Stability, StableRegion, coupling_at, transition_at};
 use serde::Serialize;
 
 use crate::numbers::{four_digits, three_digits, two_digits};
-use crate::prediction::Known;
 
 /// The verdict with its numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -41,24 +39,26 @@ pub struct EpsilonRange {
 
 /// What a verdict is made from.
 pub struct Evidence<'a> {
-    pub known: Known<'a>,
     pub stable: &'a StableRegion,
-    pub critical: &'a [CriticalCoupling],
-    /// Predicted states, neighbours of equal clusters not yet merged.
-    pub states: &'a [State],
+    pub stability: &'a Stability,
+    /// The largest λ below 0: zero modes are zero exactly.
+    pub slowest: Option<f64>,
+    /// λ_N, where it is known.
+    pub fastest: Option<f64>,
     pub n_components: usize,
     /// In how many different states isolated oscillators come to rest; 0 where they do not.
     pub n_rests: usize,
     /// The σ that were looked at, ascending.
     pub looked: &'a [f64],
-    /// |λ_N|, or what it is at least.
-    pub fastest_rate: f64,
+    /// As [`assumed_above`] has it.
+    pub assumed_above: Option<f64>,
 }
 
-/// ε above which λ_N has a σ beyond all that were looked at, where the set counts as unbounded.
-pub fn assumed_above(stable: &StableRegion, fastest_rate: f64) -> Option<f64> {
+/// ε above which λ_N, or what |λ_N| is at least, has a σ beyond all that were looked at, where the set
+/// counts as unbounded.
+pub fn assumed_above(stable: &StableRegion, fastest: f64) -> Option<f64> {
     let top = stable.intervals.last().filter(|last| last.to.is_looked())?.to.sigma();
-    (top.is_finite() && fastest_rate > 0.0).then(|| top / fastest_rate)
+    Some(coupling_at(top, fastest)).filter(|above| above.is_finite())
 }
 
 impl Synchrony {
@@ -78,10 +78,11 @@ impl Synchrony {
 impl Evidence<'_> {
     /// Where no mode is unstable, and the range begins and ends by a mode that becomes so.
     fn ranges(&self) -> Vec<EpsilonRange> {
-        let synchronous = self.states.iter().filter(|state| state.unstable_modes.is_empty());
+        let Stability { stretches, decided, .. } = self.stability;
+        let synchronous = stretches.iter().filter(|stretch| stretch.unstable_modes.is_empty());
         let mut ranges: Vec<EpsilonRange> = synchronous
-            .map(|state| {
-                let (from, to) = state.epsilon;
+            .map(|stretch| {
+                let (from, to) = stretch.epsilon;
                 EpsilonRange {
                     from,
                     from_standard_error: self.error_at(from),
@@ -90,35 +91,27 @@ impl Evidence<'_> {
                 }
             })
             .collect();
-        if let (Some(top), Some(highest)) = (self.known.top(self.stable), ranges.first_mut())
+        if let (Some(top), Some(highest)) = (decided.to, ranges.first_mut())
             && highest.to == Some(top)
         {
             // λ_N is of no mode that was computed.
-            let zero = self.stable.intervals.first().and_then(|first| first.to.zero());
-            highest.to_standard_error = zero.map(|zero| zero.standard_error / zero.sigma * top);
+            highest.to_standard_error = decided.to_standard_error;
         }
         ranges.reverse();
         ranges
     }
 
     fn error_at(&self, epsilon: f64) -> Option<f64> {
-        let here = |c: &&CriticalCoupling| (c.epsilon - epsilon).abs() <= 1e-9 * epsilon;
-        self.critical.iter().find(here).map(|critical| critical.standard_error)
-    }
-
-    fn slowest(&self) -> Option<f64> {
-        self.known.slowest()
+        transition_at(&self.stability.transitions, epsilon).map(|found| found.standard_error)
     }
 
     fn eigenratio(&self) -> Option<f64> {
-        Some(self.known.fastest? / self.slowest()?)
+        Some(self.fastest? / self.slowest?)
     }
 
     /// What a verdict takes for granted: that σ beyond the look are stable.
     fn assumption(&self, ranges: &[EpsilonRange]) -> String {
-        let Some(above) = assumed_above(self.stable, self.fastest_rate) else {
-            return String::new();
-        };
+        let Some(above) = self.assumed_above else { return String::new() };
         let looked = four_digits(self.looked.last().copied().unwrap_or_default());
         match ranges.last() {
             Some(range) if range.to.is_none() && above <= range.from => {
@@ -202,11 +195,12 @@ fn ratio(interval: &Interval) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use clustering::{ClusterRule, cascade};
     use graph::{CouplingMatrix, Network, Normalization};
+    use msf::Zero;
     use spectra::{Request, leading_modes};
 
     use super::*;
+    use crate::prediction;
 
     /// The verdict on a network of links of weight 1, with all of its modes.
     fn verdict(n_nodes: usize, links: &[(usize, usize)], intervals: Vec<Interval>) -> String {
@@ -225,19 +219,23 @@ mod tests {
         let network = Network::undirected(labels, &links).unwrap();
         let n_components = network.components().len();
         let w = CouplingMatrix::new(&network, Normalization::Laplacian);
-        let spectrum = leading_modes(&w, &Request::default()).unwrap();
+        let mut spectrum = leading_modes(&w, &Request::default()).unwrap();
+        // No error but that of zeros is to be told.
+        spectrum.eigenspaces.iter_mut().for_each(|space| space.residuals.fill(0.0));
         let stable = StableRegion { intervals };
-        let states = cascade(&spectrum, &stable, ClusterRule::Exact).unwrap();
-        let fastest = spectrum.real_eigenvalues().last().copied();
+        let looked = [0.0, 20.0, 50.0];
+        let eigenvalues = spectrum.real_eigenvalues();
+        let fastest = eigenvalues.last().copied();
+        let stability = prediction::stability(&stable, looked[0], &spectrum, fastest).unwrap();
         let evidence = Evidence {
-            known: Known { spectrum: &spectrum, fastest },
-            critical: &[],
-            states: &states,
             stable: &stable,
+            stability: &stability,
+            slowest: eigenvalues.iter().copied().find(|&lambda| lambda < 0.0),
+            fastest,
             n_components,
             n_rests,
-            looked: &[0.0, 20.0, 50.0],
-            fastest_rate: fastest.map_or(0.0, f64::abs),
+            looked: &looked,
+            assumed_above: assumed_above(&stable, fastest.unwrap_or_default()),
         };
         Synchrony::of(&evidence).verdict
     }
@@ -253,6 +251,16 @@ mod tests {
         assert_eq!(verdict(3, &PATH, unbounded), "all nodes synchronise for ε > 8");
         let periodic = vec![Interval::known(0.0, None)];
         assert_eq!(verdict(3, &PATH, periodic), "all nodes synchronise for every ε > 0");
+    }
+
+    #[test]
+    fn each_end_of_a_range_has_the_error_of_its_own_transition() {
+        let zero = |sigma, falling, standard_error| {
+            End::Zero(Zero { standard_error, ..Zero::exact(sigma, falling) })
+        };
+        let window = Interval { from: zero(1.0, true, 0.03), to: zero(4.5, false, 0.15) };
+        let expected = "all nodes synchronise for 1 (± 0.03) < ε < 1.5 (± 0.05)";
+        assert_eq!(verdict(3, &PATH, vec![window]), expected);
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Master stability function Λ(σ), its stable set, and the critical couplings that follow from it.
+//! Master stability function Λ(σ), its stable set, and the transitions that follow from it: at which ε which
+//! modes change their stability, and which are unstable in between.
 //!
 //! Λ(σ) is the largest Lyapunov exponent of `δẏ = [DF(s) − σ DH] δy`, ṡ = F(s). A mode of the network
 //! with eigenvalue λ at coupling ε has σ = −ελ and is damped where Λ(σ) < 0. Nothing here knows a
@@ -7,7 +8,6 @@
 //! Source: L. M. Pecora & T. L. Carroll, PRL 80, 2109 (1998).
 
 mod attractors;
-mod critical;
 mod curve;
 mod error;
 mod fit;
@@ -17,15 +17,18 @@ mod reach;
 mod rest;
 mod stable_region;
 mod step;
+mod stretches;
+mod transitions;
 mod zero;
 mod zeros;
 
 pub use attractors::Attractor;
-pub use critical::{CriticalCoupling, critical_couplings};
 pub use curve::{MasterStability, Node, Request, master_stability, master_stability_with};
 pub use error::MsfError;
 pub use isolated::Isolated;
 pub use reach::reach;
 pub use stable_region::{End, Interval, StableRegion};
+pub use stretches::{Decided, KnownModes, Others, Stability, Stretch};
+pub use transitions::{Eigenspace, Transition, coupling_at, transition_at};
 pub use zero::Zero;
 pub use zeros::{Advance, Refinement};

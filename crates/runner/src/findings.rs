@@ -1,6 +1,5 @@
 //! What an experiment found: the study of its plan, with finished work taken from the journal.
 
-use clustering::ClusteringError;
 use dynamics::DynamicsError;
 use eigensync::numbers::plain;
 use eigensync::{Error, Findings, Warning, curve_by, find_by};
@@ -61,7 +60,7 @@ fn failed(plan: &Plan, error: &Error) -> Problem {
              too long for it",
             plan.node.model.name()
         )),
-        Error::Cascade(ClusteringError::NoTransverseMode { .. }) => problem.hint(format!(
+        Error::OnlyZeroModes { .. } => problem.hint(format!(
             "the network has {} components, and each brings an eigenvalue 0: ask for more modes \
              than that, or prepare the network by `largest_component`",
             plan.study.n_components

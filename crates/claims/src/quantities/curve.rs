@@ -1,6 +1,6 @@
 //! What follows from Λ(σ): Λ(0), σ_c, critical couplings.
 
-use eigensync::msf::CriticalCoupling;
+use eigensync::msf::coupling_at;
 use eigensync::numbers::four_digits;
 
 use super::spectrum;
@@ -17,7 +17,7 @@ pub fn isolated(found: &Found<'_>) -> Vec<Number> {
 pub fn sigma_c(found: &Found<'_>) -> Vec<Number> {
     vec![match found.findings.msf.stable.sigma_c() {
         Some(zero) => Number::Known { value: zero.sigma, error: zero.standard_error },
-        None => no_edge(found, 1.0),
+        None => no_edge(found, -1.0),
     }]
 }
 
@@ -34,18 +34,17 @@ pub fn critical_couplings(found: &Found<'_>) -> Vec<Number> {
         if mode > eigenvalues.len() {
             return Number::Unknown(found.not_computed(mode));
         }
-        let is_meant = |c: &&CriticalCoupling| c.mode == mode && c.stable_above;
-        match findings.critical.iter().find(is_meant) {
+        match findings.transitions_of(mode - 1).find(|transition| transition.zero.falling) {
             // The zero of Λ is the same for all modes, and does not change their order.
-            Some(c) if found.at.in_order && c.epsilon.is_finite() => Number::Known {
-                value: c.epsilon,
-                error: c.epsilon * spectrum::error(found, mode) / -c.lambda,
+            Some(t) if found.at.in_order && t.epsilon.is_finite() => Number::Known {
+                value: t.epsilon,
+                error: t.epsilon * spectrum::error(found, mode) / -t.lambda,
             },
-            Some(c) if c.epsilon.is_finite() => {
-                Number::Known { value: c.epsilon, error: c.standard_error }
+            Some(t) if t.epsilon.is_finite() => {
+                Number::Known { value: t.epsilon, error: t.standard_error }
             }
             Some(_) => Number::None,
-            None => no_edge(found, -eigenvalues[mode - 1]),
+            None => no_edge(found, eigenvalues[mode - 1]),
         }
     };
     found.at.modes.iter().flatten().map(number).collect()
@@ -54,19 +53,22 @@ pub fn critical_couplings(found: &Found<'_>) -> Vec<Number> {
 /// Whether any of them follows from a zero that is not known as well as was asked for.
 pub fn couplings_are_unrefined(found: &Found<'_>) -> bool {
     let modes = found.at.modes.as_deref().unwrap_or_default();
-    found.findings.critical.iter().any(|c| modes.contains(&c.mode) && !c.refined)
+    let is_unrefined = |mode: &usize| {
+        found.findings.transitions_of(mode - 1).any(|transition| !transition.zero.refined)
+    };
+    modes.iter().any(is_unrefined)
 }
 
-/// Where there is no σ from which on modes are stable: it may lie where nothing was looked at. A coupling
-/// is that σ over a rate.
-fn no_edge(found: &Found<'_>, rate: f64) -> Number {
+/// Where there is no σ from which on a mode of eigenvalue λ is stable: it may lie where nothing was looked
+/// at. σ_c is the coupling of λ = −1.
+fn no_edge(found: &Found<'_>, lambda: f64) -> Number {
     let msf = &found.findings.msf;
     let [first, last] = [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]];
     let [from, to] = [first, last].map(four_digits);
     if msf.stable.intervals.is_empty() {
         let words = format!("nothing is stable from sigma = {from} to {to}");
         return match first {
-            0.0 => Number::NoneUpTo { limit: last / rate, words },
+            0.0 => Number::NoneUpTo { limit: coupling_at(last, lambda), words },
             _ => Number::Unknown(words),
         };
     }

@@ -1,7 +1,7 @@
 //! The cascade: the paper's two networks, windows, partial spectra, and a scan as the second route.
 
 use clustering::{
-    ClusterRule, ClusteringError, EigenvectorDistance, State, cascade, merge_equal_clusters,
+    ClusterRule, ClusteringError, EigenvectorDistance, State, Stretch, merge_equal_clusters,
 };
 use graph::Normalization;
 use msf::{End, Interval, StableRegion};
@@ -12,6 +12,7 @@ use crate::fixtures::{
     block_spectrum, leading, nepal, random_network, random_spectrum, read, rotated, six_nodes,
     spectrum_of, vectors_mut,
 };
+use crate::stable_set::cascade;
 
 /// The critical generic coupling of the Lorenz oscillators of Fig. 1.
 const SIGMA_C: f64 = 8.17;
@@ -238,15 +239,6 @@ fn leading_modes_stop_above_the_highest_window() {
 }
 
 #[test]
-fn leading_modes_decide_nothing_in_a_bounded_window() {
-    let expected = ClusteringError::PartialSpectrum { computed: 7, n_nodes: 15 };
-    for stable in [region(&[(0.187, Some(4.61))]), StableRegion::default()] {
-        let error = cascade(&leading(nepal(), 7), &stable, ClusterRule::Exact).unwrap_err();
-        assert_eq!(error, expected);
-    }
-}
-
-#[test]
 fn nothing_is_predicted_below_the_sigma_that_were_looked_at() {
     // Stable from σ = 10 on, where the look began: mode 2 of the six nodes, λ = −2, comes to it at 5.
     let mut stable = above(10.0);
@@ -268,10 +260,44 @@ fn oscillators_at_rest_are_equal_in_every_component_of_the_network() {
     assert_eq!(states.iter().map(|s| s.clusters.n_clusters()).collect::<Vec<_>>(), [1]);
 }
 
+/// The states of Nepal where these modes are unstable on the two sides of ε = 1.
+fn about_one(
+    [above, below]: [&[usize]; 2],
+    to: f64,
+    rule: ClusterRule,
+) -> Result<Vec<State>, ClusteringError> {
+    let stretch = |epsilon, modes: &[usize]| Stretch {
+        epsilon,
+        unstable_modes: modes.to_vec(),
+        truncated: false,
+    };
+    let stretches = vec![stretch((1.0, None), above), stretch((0.0, Some(to)), below)];
+    clustering::cascade(&nepal(), stretches, rule, &|_| {})
+}
+
 #[test]
-fn the_synchronous_mode_alone_decides_nothing() {
-    let error = cascade(&leading(nepal(), 1), &above(SIGMA_C), ClusterRule::Exact).unwrap_err();
-    assert_eq!(error, ClusteringError::NoTransverseMode { computed: 1, n_nodes: 15 });
+fn unstable_modes_are_whole_eigenspaces_without_the_synchronous_mode() {
+    let part = ClusteringError::PartOfEigenspace { first: 3, last: 6, missing: 6 };
+    let beyond = ClusteringError::ModeOutOfRange { mode: 15, n_modes: 15 };
+    let all: Vec<usize> = (1..15).collect();
+    for rule in [ClusterRule::Exact, ClusterRule::Threshold(0.03)] {
+        // All nodes are single above already, so that no cluster asks for the modes below.
+        let error = |below: &[usize]| about_one([&all, below], 1.0, rule).unwrap_err();
+        assert_eq!(error(&[1, 2, 3, 4, 5]), part);
+        assert_eq!(error(&[0, 1]), ClusteringError::SynchronousMode);
+        assert_eq!(error(&[1, 15]), beyond);
+    }
+}
+
+#[test]
+#[should_panic(expected = "a stretch of ε over (0.0, Some(0.5)) below one over (1.0, None)")]
+fn stretches_with_a_gap_are_refused() {
+    let _ = about_one([&[], &[1]], 0.5, ClusterRule::Exact);
+}
+
+#[test]
+fn no_stretch_has_no_state() {
+    assert_eq!(clustering::cascade(&nepal(), vec![], ClusterRule::Exact, &|_| {}), Ok(vec![]));
 }
 
 #[test]

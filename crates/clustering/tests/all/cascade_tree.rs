@@ -1,7 +1,7 @@
 //! The tree of the cascade: the paper's two networks, windows, and invariants.
 
 use clustering::{
-    CascadeTree, ClusterKind, ClusterRule, State, StateLabels, TreeEnd, TreeRow, cascade,
+    CascadeTree, ClusterKind, ClusterRule, State, StateLabels, TreeEnd, TreeRow,
     hold_against_links, merge_equal_clusters,
 };
 use graph::{CouplingMatrix, Normalization};
@@ -9,6 +9,7 @@ use msf::{Interval, StableRegion};
 use proptest::prelude::*;
 
 use crate::fixtures::{leading, nepal, random_network, read, six_nodes, spectrum_of};
+use crate::stable_set::cascade;
 
 fn region(from: f64, to: Option<f64>) -> StableRegion {
     StableRegion { intervals: vec![Interval::known(from, to)] }

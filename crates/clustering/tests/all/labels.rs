@@ -2,7 +2,7 @@
 //! the thousand, and the equations of motion themselves.
 
 use clustering::{
-    ClusterKind, ClusterRule, EigenvectorDistance, Partition, State, StateLabels, cascade,
+    ClusterKind, ClusterRule, EigenvectorDistance, Partition, State, StateLabels,
     hold_against_links, merge_equal_clusters,
 };
 use graph::{CouplingMatrix, Network, Normalization, SparseMatrix};
@@ -12,6 +12,7 @@ use spectra::Spectrum;
 use crate::fixtures::{Random, random_network, read, spectrum, spectrum_of, unit};
 use crate::planted;
 use crate::refinement::by_definition;
+use crate::stable_set::cascade;
 
 const TOLERANCE: f64 = 1e-9;
 const NINE_NODES: &str = include_str!("nine-node.edges");

@@ -1,11 +1,12 @@
 //! Clusters of the benchmarks' fixtures against all pairs, closed forms and other bases.
 
-use clustering::{CascadeTree, ClusterRule, EigenvectorDistance, Partition, TreeEnd, cascade};
+use clustering::{CascadeTree, ClusterRule, EigenvectorDistance, Partition, TreeEnd};
 use msf::{Interval, StableRegion};
 use spectra::Spectrum;
 
 use crate::fixtures::{rotated, vectors_mut};
 use crate::large_fixtures::{Fixture, all, communities, ring_of_cliques, scale_free};
+use crate::stable_set::cascade;
 
 /// The distance with all transverse modes unstable.
 fn distance(spectrum: &Spectrum) -> EigenvectorDistance {

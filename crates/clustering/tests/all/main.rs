@@ -16,3 +16,4 @@ mod planted;
 mod refinement;
 mod regions;
 mod robustness;
+mod stable_set;

@@ -3,12 +3,13 @@
 
 use clustering::{
     CascadeTree, ClusterKind, ClusterRule, ClusteringError, EigenvectorDistance, Partition, State,
-    StateLabels, cascade, equitable, hold_against_links,
+    StateLabels, equitable, hold_against_links,
 };
 use graph::{CouplingMatrix, Network, Normalization};
 use msf::{Interval, StableRegion};
 
 use crate::fixtures::{nepal, read, spectrum_of, vectors_mut};
+use crate::stable_set::cascade;
 
 const RULES: [ClusterRule; 2] = [ClusterRule::Exact, ClusterRule::Threshold(1e-6)];
 

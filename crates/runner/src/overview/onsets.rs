@@ -79,8 +79,8 @@ fn row(findings: &Findings, cluster: &TreeCluster) -> Option<Row> {
 /// A predicted range with the errors of its ends.
 fn range(findings: &Findings, (from, to): (f64, Option<f64>)) -> String {
     let shown = |epsilon: f64| {
-        let critical = findings.critical.iter().find(|critical| critical.epsilon == epsilon);
-        critical.map_or_else(|| four_digits(epsilon), |c| with_error(epsilon, c.standard_error))
+        let transition = findings.transition_at(epsilon);
+        transition.map_or_else(|| four_digits(epsilon), |t| with_error(epsilon, t.standard_error))
     };
     match to {
         Some(to) => format!("{} to {}", shown(from), shown(to)),

@@ -180,16 +180,18 @@ fn zero_record(zero: Zero) -> ZeroRecord {
     ZeroRecord { sigma, standard_error, falling, refined, step_shift: step_shift.map(Into::into) }
 }
 
-/// The critical couplings.
+/// The critical couplings, mode by mode.
 pub fn critical_records(findings: &Findings) -> Vec<CriticalRecord> {
     let finite = |value: f64| value.is_finite().then_some(value);
-    let record = |critical: &msf::CriticalCoupling| CriticalRecord {
-        mode: critical.mode,
-        lambda: critical.lambda,
-        epsilon: finite(critical.epsilon),
-        standard_error: finite(critical.standard_error),
-        stable_above: critical.stable_above,
-        refined: critical.refined,
+    let record = |(mode, lambda): (usize, f64)| {
+        findings.transitions_of(mode).map(move |transition| CriticalRecord {
+            mode: mode + 1,
+            lambda,
+            epsilon: finite(transition.epsilon),
+            standard_error: finite(transition.standard_error),
+            stable_above: transition.zero.falling,
+            refined: transition.zero.refined,
+        })
     };
-    findings.critical.iter().map(record).collect()
+    findings.spectrum.real_eigenvalues().into_iter().enumerate().flat_map(record).collect()
 }
