@@ -1,5 +1,7 @@
 //! Who watches a study: told of its stages, its progress and its warnings, and free to stop it.
 
+use dynamics::{Record, Replica};
+
 use crate::Warning;
 
 /// Told of a study as it goes on. Every method does nothing by default.
@@ -17,6 +19,12 @@ pub trait Observer: Sync {
     /// A warning came up.
     fn warned(&self, warning: &Warning) {
         let _ = warning;
+    }
+
+    /// The next states of a replica, where the sweep asks for a [`dynamics::Series`]: those of one
+    /// replica in their order, from any thread.
+    fn recorded(&self, replica: Replica, record: &Record<'_>) {
+        let _ = (replica, record);
     }
 
     /// Whether to stop: asked at every step that is told, and between stages. Only the dense solver,

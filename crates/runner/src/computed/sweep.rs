@@ -20,7 +20,7 @@ const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
 
 /// All replicas of the sweep of a plan.
 pub fn runs(plan: &Plan, sweep: &Sweep, journal: &Journal) -> Result<Vec<Run>, DynamicsError> {
-    let simulation = plan.study.simulation(sweep, sweep.schedule);
+    let simulation = plan.study.simulation(sweep);
     let replicas = sweep.replicas();
     let shared = (matrix(plan), &plan.node, sweep.method, sweep.schedule);
     let shared = Key::of(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
@@ -74,7 +74,7 @@ pub fn effects_of_step(
     journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {
             let steps = probe.replicas.len() as u64 * schedule.steps();
-            let simulation = plan.study.simulation(sweep, schedule);
+            let simulation = plan.study.probing(sweep, schedule);
             let run = |progress: Progress<'_>| simulation.run(&probe.replicas, progress);
             plan.stages.measured("half step", steps, run)
         };
