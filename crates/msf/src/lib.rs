@@ -14,6 +14,7 @@ mod fit;
 mod isolated;
 mod origin;
 mod reach;
+mod refinement;
 mod rest;
 mod stable_region;
 mod step;
@@ -26,6 +27,6 @@ pub use curve::{MasterStability, Node, Request, master_stability, master_stabili
 pub use error::MsfError;
 pub use isolated::Isolated;
 pub use reach::reach;
+pub use refinement::{Advance, Refinement};
 pub use stable_region::{End, Interval, StableRegion};
 pub use zero::Zero;
-pub use zeros::{Advance, Refinement};
