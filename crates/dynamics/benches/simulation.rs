@@ -40,6 +40,7 @@ fn simulation(matrix: &SparseMatrix, samples: u32, observables: Observables) -> 
         method: Method::Rk4,
         schedule: Schedule { step, transient: 0.0, average, stride },
         observables,
+        series: None,
         kick: ROUNDING_KICK,
         instruction_set: InstructionSet::best(),
     }

@@ -7,6 +7,7 @@ use crate::kernel::Network;
 use crate::kicks::Kicks;
 use crate::links::Links;
 use crate::observables::ErrorSums;
+use crate::series::Recorder;
 use crate::tile::TILE;
 use crate::{Next, Observer, Outcome, Simulation, Snapshot, Start};
 
@@ -73,10 +74,12 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
         // Lanes beyond the batch repeat its last replica and are never read.
         let in_lanes = std::array::from_fn(|lane| starts[lane.min(starts.len() - 1)].1.replica);
         let equations = (dynamics.as_ref(), coupling);
+        let n_components = dynamics.start().len();
         let mut lanes = InLanes::<L, R> {
             network: Network::new(equations, simulation.instruction_set, links, in_lanes),
             sums: ErrorSums::new(observables, links.n_nodes(), schedule.samples_per_block()),
             kicks: Kicks::new(*kick, schedule.sampling_interval(), in_lanes),
+            recorder: Recorder::new(simulation.series.as_ref(), schedule, n_components),
         };
         let numbers: Vec<usize> = starts.iter().map(|start| start.0).collect();
         let transient = schedule.transient_samples();
@@ -85,6 +88,9 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
             lanes.restore(starts, (done, transient), links.n_nodes());
         }
         let mut outcomes: [Option<Outcome>; L] = std::array::from_fn(|_| None);
+        if done == 0 && lanes.recorder.due(0) {
+            lanes.record((0, 0.0), going(&numbers, &outcomes), observer);
+        }
         for sample in done + 1..=end {
             lanes.network.advance(schedule.stride, schedule.step);
             for (lane, bounded) in lanes.network.bounded().into_iter().enumerate() {
@@ -99,6 +105,10 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
             if sample > transient {
                 lanes.sums.sample(lanes.network.component(observables.component));
             }
+            if lanes.recorder.due(sample) {
+                let at = (sample, schedule.time_of(sample));
+                lanes.record(at, going(&numbers, &outcomes), observer);
+            }
             if lanes.kicks.due(sample) {
                 let InLanes { network, kicks, .. } = &mut lanes;
                 network.change_state(|_, _, lanes| kicks.apply(lanes));
@@ -107,8 +117,7 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
             match observer.advanced(&numbers, steps) {
                 Next::GoOn => {}
                 Next::Snapshot if sample < end => {
-                    let going = numbers.iter().zip(0..).filter(|&(_, at)| outcomes[at].is_none());
-                    for (&number, lane) in going {
+                    for (number, lane) in going(&numbers, &outcomes) {
                         observer.snapshot(number, lanes.snapshot(lane, (sample, transient)));
                     }
                 }
@@ -142,11 +151,17 @@ fn finish(
     outcomes[lane] = Some(outcome);
 }
 
+/// The replicas that have come to no end yet, each with its lane.
+fn going(numbers: &[usize], outcomes: &[Option<Outcome>]) -> impl Iterator<Item = (usize, usize)> {
+    numbers.iter().copied().zip(0..).filter(|&(_, lane)| outcomes[lane].is_none())
+}
+
 /// All that changes while a batch runs.
 struct InLanes<'a, const L: usize, const R: usize> {
     network: Network<'a, L, R>,
     sums: ErrorSums<L>,
     kicks: Kicks<L>,
+    recorder: Recorder,
 }
 
 impl<const L: usize, const R: usize> InLanes<'_, L, R> {
@@ -165,6 +180,22 @@ impl<const L: usize, const R: usize> InLanes<'_, L, R> {
             self.sums.go_on_after(sample - transient);
         }
         self.kicks.go_on_after(sample, self.network.n_components() * n_nodes);
+    }
+
+    /// Tells of replicas in their lanes at a sample, of which a record is due.
+    #[cold]
+    #[inline(never)]
+    fn record(
+        &mut self,
+        at: (u64, f64),
+        replicas: impl Iterator<Item = (usize, usize)>,
+        observer: &dyn Observer,
+    ) {
+        let Self { network, recorder, .. } = self;
+        for (number, lane) in replicas {
+            let state = |component, node| network.node(component, node)[lane];
+            recorder.tell((number, observer), at, state);
+        }
     }
 
     /// What a lane has come to.

@@ -36,6 +36,32 @@ pub enum DynamicsError {
         /// The least number.
         needed: u64,
     },
+    /// A node of a time series that the network does not have.
+    #[error("the series is of node {node}, counted from 0, of a network of {n_nodes}")]
+    NoSuchNode {
+        /// Node asked for.
+        node: usize,
+        /// How many there are.
+        n_nodes: usize,
+    },
+    /// A component of a time series that the oscillator does not have.
+    #[error("the series is of component {component}, counted from 0, of {n_components}")]
+    NoSuchComponent {
+        /// Component asked for.
+        component: usize,
+        /// How many there are.
+        n_components: usize,
+    },
+    /// A time series without a single record.
+    #[error("the series has no sample: it is of every {every} samples from time {from} to {to}")]
+    EmptySeries {
+        /// Samples from one record to the next.
+        every: u64,
+        /// Model time of the first.
+        from: f64,
+        /// Model time that none is later than.
+        to: f64,
+    },
     /// An isolated orbit left every bounded region.
     #[error("the isolated orbit escapes at time {time}")]
     Escaped {

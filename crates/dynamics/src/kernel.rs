@@ -122,6 +122,11 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         self.rows.places().iter().map(move |&place| &placed[place as usize])
     }
 
+    /// The lanes of one component of one node.
+    pub(crate) fn node(&self, component: usize, node: usize) -> &[f64; L] {
+        &self.points[component].as_chunks().0[self.rows.places()[node] as usize]
+    }
+
     /// Changes the lanes of every component of every node, in this order.
     #[inline(always)]
     pub(crate) fn change_state(&mut self, mut change: impl FnMut(usize, usize, &mut [f64; L])) {

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Outcome, Progress, Replica};
+use crate::{Outcome, Progress, Record, Replica};
 
 /// Follows a simulation; called from any thread. Every method does nothing unless it is written.
 pub trait Observer: Sync {
@@ -21,6 +21,14 @@ pub trait Observer: Sync {
     /// A replica has ended.
     fn finished(&self, replica: usize, outcome: &Outcome) {
         let _ = (replica, outcome);
+    }
+
+    /// The next record of a replica, where the simulation has a [`crate::Series`]; those of one replica
+    /// come in their order, and none from the sample on at which an orbit is seen to have escaped. A
+    /// replica that goes on from a snapshot tells of the samples after it: what an earlier run told
+    /// of these comes again, with the same numbers and to the same bits.
+    fn recorded(&self, replica: usize, record: &Record<'_>) {
+        let _ = (replica, record);
     }
 
     /// The state of a replica that goes on, for which [`Next::Snapshot`] asked.

@@ -17,7 +17,9 @@ impl Simulation<'_> {
     ///
     /// # Errors
     /// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`] and [`DynamicsError::TooFewSamples`] for
-    /// a schedule that makes no sense. An orbit that escapes, or cannot be integrated, is an
+    /// a schedule that makes no sense, [`DynamicsError::NoSuchNode`],
+    /// [`DynamicsError::NoSuchComponent`], [`DynamicsError::BadTime`] and
+    /// [`DynamicsError::EmptySeries`] for a series that cannot be had. An orbit that escapes, or cannot be integrated, is an
     /// [`Outcome`], not an error.
     pub fn run(
         &self,
@@ -43,6 +45,9 @@ impl Simulation<'_> {
         observer: &dyn Observer,
     ) -> Result<Vec<Run>, DynamicsError> {
         self.schedule.check()?;
+        if let Some(series) = &self.series {
+            series.check(&self.schedule, (self.matrix.rows(), self.dynamics.start().len()))?;
+        }
         for snapshot in starts.iter().filter_map(|start| start.from.as_ref()) {
             assert!(self.can_start_from(snapshot), "a snapshot is of another simulation");
         }

@@ -10,7 +10,7 @@ use crate::error::{check_times, whole};
 use crate::integrators::Method;
 use crate::observables::{Errors, Observables};
 use crate::statistics::BLOCKS;
-use crate::{Coupling, DynamicsError, InstructionSet, NodeDynamics, SparseMatrix};
+use crate::{Coupling, DynamicsError, InstructionSet, NodeDynamics, Series, SparseMatrix};
 
 /// Relative size of kicks of some fifty roundings.
 pub const ROUNDING_KICK: f64 = 1e-14;
@@ -80,6 +80,8 @@ pub struct Simulation<'a> {
     pub schedule: Schedule,
     /// What to average.
     pub observables: Observables,
+    /// States to hand out on the way, if any; outcomes do not depend on it.
+    pub series: Option<Series>,
     /// Relative size of the random kicks that keep states from being equal to the last bit; 0 for
     /// none. [`ROUNDING_KICK`] is what nothing but rounding would notice.
     pub kick: f64,

@@ -43,6 +43,7 @@ fn lorenz_network(matrix: &SparseMatrix) -> Simulation<'_> {
         method: Method::Rk4,
         schedule: SCHEDULE,
         observables: Observables { pairs: true, ..Observables::default() },
+        series: None,
         kick: ROUNDING_KICK,
         instruction_set: InstructionSet::best(),
     }

@@ -75,6 +75,7 @@ fn simulate(
         method,
         schedule: Schedule { step: 0.01, transient: 5.0, average: 20.0, stride: 10 },
         observables: Observables { pairs: true, ..Observables::default() },
+        series: None,
         kick: 0.0,
         instruction_set: InstructionSet::best(),
     };

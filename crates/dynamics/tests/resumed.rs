@@ -40,6 +40,7 @@ fn lorenz(matrix: &SparseMatrix) -> Simulation<'_> {
             reference: Some(2),
             clusters: vec![vec![0, 1, 4], vec![2, 3]],
         },
+        series: None,
         kick: ROUNDING_KICK,
         instruction_set: InstructionSet::best(),
     }

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{DynamicsError, Next, Outcome, Progress, Run, Snapshot, Start};
+use dynamics::{DynamicsError, Next, Progress, Record, Replica, Run, Simulation, Start};
 use msf::{MasterStability, MsfError};
 use spectra::{SpectraError, Spectrum};
 
@@ -26,7 +26,8 @@ pub trait Compute {
     /// As [`Self::curve`].
     fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Self::Error>;
 
-    /// All replicas of a sweep, in their order.
+    /// All replicas of a sweep, in their order; its observer is told of their states where
+    /// [`Sweep::series`] asks for them.
     ///
     /// # Errors
     /// As [`Self::curve`].
@@ -58,6 +59,17 @@ impl Plainly<'_> {
     fn go_on(&self) -> Result<(), Error> {
         if self.0.wants_to_stop() { Err(Error::Cancelled) } else { Ok(()) }
     }
+
+    /// Runs replicas from their initial states.
+    fn watched(
+        &self,
+        simulation: &Simulation<'_>,
+        replicas: Vec<Replica>,
+    ) -> Result<Vec<Run>, Error> {
+        let starts = replicas.iter().map(|&replica| Start::from(replica)).collect();
+        let watched = Watched { observer: self.0, replicas };
+        simulation.run_observed(starts, &watched).map_err(not_swept)
+    }
 }
 
 impl Compute for Plainly<'_> {
@@ -85,9 +97,7 @@ impl Compute for Plainly<'_> {
     fn runs(&self, study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
         self.go_on()?;
         self.0.begins("sweep", Some(sweep.steps()));
-        let starts = sweep.replicas().into_iter().map(Start::from).collect();
-        let simulation = study.simulation(sweep, sweep.schedule);
-        simulation.run_observed(starts, &Watched(self.0)).map_err(not_swept)
+        self.watched(&study.simulation(sweep), sweep.replicas())
     }
 
     fn step_effects(
@@ -100,9 +110,7 @@ impl Compute for Plainly<'_> {
         let Some(probe) = Probe::of(sweep, simulated) else { return Ok(Vec::new()) };
         let at = |schedule: dynamics::Schedule| {
             self.0.begins("half step", Some(probe.replicas.len() as u64 * schedule.steps()));
-            let starts = probe.replicas.iter().map(|&replica| Start::from(replica)).collect();
-            let simulation = study.simulation(sweep, schedule);
-            simulation.run_observed(starts, &Watched(self.0)).map_err(not_swept)
+            self.watched(&study.probing(sweep, schedule), probe.replicas.clone())
         };
         let [at_step, at_half] = probe.schedules.map(at);
         Ok(probe.effects(simulated, [&at_step?, &at_half?]))
@@ -145,15 +153,18 @@ fn not_swept(error: DynamicsError) -> Error {
     }
 }
 
-/// A sweep that is watched.
-struct Watched<'a>(&'a dyn Observer);
+/// Replicas that are watched.
+struct Watched<'a> {
+    observer: &'a dyn Observer,
+    replicas: Vec<Replica>,
+}
 
 impl dynamics::Observer for Watched<'_> {
-    fn advanced(&self, _replicas: &[usize], steps: u64) -> Next {
-        if told(self.0, steps).is_break() { Next::Stop } else { Next::GoOn }
+    fn advanced(&self, _: &[usize], steps: u64) -> Next {
+        if told(self.observer, steps).is_break() { Next::Stop } else { Next::GoOn }
     }
 
-    fn finished(&self, _replica: usize, _outcome: &Outcome) {}
-
-    fn snapshot(&self, _replica: usize, _snapshot: Snapshot) {}
+    fn recorded(&self, replica: usize, record: &Record<'_>) {
+        self.observer.recorded(self.replicas[replica], record);
+    }
 }

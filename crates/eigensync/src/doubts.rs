@@ -7,7 +7,8 @@ use dynamics::{Outcome, Run};
 use msf::{Isolated, MasterStability};
 
 use crate::numbers::{four_digits, plain, two_digits, with_error};
-use crate::simulated::range::{Known, Seen};
+use crate::simulated::end::Known;
+use crate::simulated::range::Seen;
 use crate::simulated::{Apart, Simulated};
 use crate::stability::word;
 use crate::{Findings, Study, Sweep, Warnings};

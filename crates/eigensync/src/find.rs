@@ -12,8 +12,8 @@ use crate::compute::{Plainly, not_curve, told};
 use crate::numbers::{four_digits, plain, two_digits};
 use crate::synchrony::{Evidence, assumed_above};
 use crate::{
-    Compute, Error, Findings, Observer, Simulated, Study, Synchrony, Warning, Warnings, agreement,
-    doubts, prediction, stability,
+    Compute, Error, Findings, Observer, Simulated, Study, Sweep, Synchrony, Warning, Warnings,
+    agreement, doubts, prediction, stability,
 };
 
 /// Total weights of two nodes to a cluster that differ by no more, relative to what they are made of,
@@ -50,6 +50,16 @@ pub fn find(study: &Study, observer: &dyn Observer) -> Result<Findings, Error> {
         study = &looked;
     }
     find_by(study, &[], &Plainly(observer))
+}
+
+/// Runs a sweep of a study alone, without a prediction: for errors, or for the states of which
+/// [`Observer::recorded`] is told.
+///
+/// # Errors
+/// As [`find`].
+pub fn simulate(study: &Study, sweep: &Sweep, observer: &dyn Observer) -> Result<Simulated, Error> {
+    let runs = Plainly(observer).runs(study, sweep)?;
+    Ok(Simulated::new(sweep, study.network.n_nodes(), runs))
 }
 
 /// The master stability function of a study alone, and what must be known beside it.

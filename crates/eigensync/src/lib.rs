@@ -109,6 +109,57 @@
 //! # let _ = Terminal;
 //! ```
 //!
+//! # Trajectories
+//!
+//! A sweep with a [`dynamics::Series`] tells the observer of the states of some nodes at every k-th
+//! sample, as they come; [`simulate`] runs it without a prediction. Here the x of two nodes of a pair,
+//! above the coupling from which on they are equal, from their initial states on:
+//!
+//! ```
+//! # use eigensync::graph::formats::edge_list;
+//! # let links = "1 2 1\n1 4 1\n1 6 1\n2 3 1\n3 4 1\n4 5 1\n5 6 1\n2 6 1.5\n3 5 1.5";
+//! # let network = edge_list::read(links.as_bytes())?;
+//! use std::sync::{Arc, Mutex};
+//!
+//! use eigensync::dynamics::{Coupling, Lorenz, Native, Record, Replica, Series};
+//! use eigensync::graph::Normalization;
+//! use eigensync::{Node, Observer, Study, Sweep, simulate};
+//!
+//! /// Times, and x of both nodes.
+//! struct Plot(Mutex<Vec<(f64, [f64; 2])>>);
+//!
+//! impl Observer for Plot {
+//!     fn recorded(&self, _: Replica, record: &Record<'_>) {
+//!         let [x_2, x_6] = record.states else { panic!("one component of two nodes") };
+//!         self.0.lock().unwrap().push((record.time, [*x_2, *x_6]));
+//!     }
+//! }
+//!
+//! let node =
+//!     Node { dynamics: Arc::new(Native::new(Lorenz::default())), coupling: Coupling::pair(0, 1) };
+//! let study = Study::new(network, Normalization::Laplacian, node);
+//! let series = Series {
+//!     components: Some(vec![0]),
+//!     from: Some(0.0),
+//!     every: 5,
+//!     ..Series::of(vec![1, 5])
+//! };
+//! let sweep = Sweep { seeds: vec![1], series: Some(series), ..Sweep::over(vec![4.5]) };
+//! # let mut sweep = sweep;
+//! # (sweep.schedule.transient, sweep.schedule.average) = (50.0, 20.0);
+//! let plot = Plot(Mutex::default());
+//! simulate(&study, &sweep, &plot)?;
+//!
+//! let plotted = plot.0.into_inner()?;
+//! let (first, last) = (plotted[0], plotted[plotted.len() - 1]);
+//! assert_eq!((first.0, plotted[1].0), (0.0, 0.5));
+//! assert!((first.1[0] - first.1[1]).abs() > 0.1);
+//! assert!((last.1[0] - last.1[1]).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Keeping finished work
+//!
 //! Whoever keeps finished work implements [`Compute`], through which every long piece goes, and calls
 //! [`find_by`].
 
@@ -140,11 +191,12 @@ pub use agreement::{Agreement, Predicted, Regions, StandardErrors};
 pub use bound::Bound;
 pub use compute::Compute;
 pub use error::Error;
-pub use find::{EQUITABLE, curve_by, find, find_by};
+pub use find::{EQUITABLE, curve_by, find, find_by, simulate};
 pub use findings::Findings;
 pub use modes::{ALL_MODES, Wanted, WantedModes};
 pub use observer::Observer;
-pub use simulated::range::{End, Group, Known, Seen};
+pub use simulated::end::{End, Group, Known};
+pub use simulated::range::Seen;
 pub use simulated::{Apart, MeanPairs, OverSeeds, Simulated, completed, observed};
 pub use stability::word;
 pub use step_effect::{Probe, StepEffect, looked_at as step_effects_looked_at};

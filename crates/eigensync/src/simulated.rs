@@ -8,6 +8,7 @@
 //! Means are over the runs that stayed bounded, and their number stands beside them. Nodes at ε = 0 are
 //! uncoupled: whether their errors are small is a property of each node, and no synchrony.
 
+pub(crate) mod end;
 mod groups;
 pub(crate) mod range;
 

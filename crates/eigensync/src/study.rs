@@ -2,7 +2,9 @@
 
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
-use dynamics::{InstructionSet, Method, Observables, ROUNDING_KICK, Replica, Schedule, Simulation};
+use dynamics::{
+    InstructionSet, Method, Observables, ROUNDING_KICK, Replica, Schedule, Series, Simulation,
+};
 use graph::{CouplingMatrix, Network, Normalization};
 use msf::{Node, Refinement};
 use spectra::SolverChoice;
@@ -63,6 +65,8 @@ pub struct Sweep {
     pub schedule: Schedule,
     /// What to average.
     pub observables: Observables,
+    /// States of which the observer is told on the way, if any: trajectories to plot.
+    pub series: Option<Series>,
     /// Below which errors count as synchrony.
     pub synchronised_below: Bound,
     /// Relative size of random kicks.
@@ -100,18 +104,24 @@ impl Study {
         }
     }
 
-    /// The simulation of a sweep, at one of its schedules.
-    pub fn simulation(&self, sweep: &Sweep, schedule: Schedule) -> Simulation<'_> {
+    /// The simulation of a sweep.
+    pub fn simulation(&self, sweep: &Sweep) -> Simulation<'_> {
         Simulation {
             dynamics: self.node.dynamics.clone(),
             coupling: self.node.coupling.clone(),
             matrix: self.matrix.matrix(),
             method: sweep.method,
-            schedule,
+            schedule: sweep.schedule,
             observables: sweep.observables.clone(),
+            series: sweep.series.clone(),
             kick: sweep.kick,
             instruction_set: self.msf.instruction_set,
         }
+    }
+
+    /// The same at another schedule, whose states nobody asks for.
+    pub fn probing(&self, sweep: &Sweep, schedule: Schedule) -> Simulation<'_> {
+        Simulation { schedule, series: None, ..self.simulation(sweep) }
     }
 
     /// Steps of all tangent vectors of the MSF, refinement of one zero included, with what is run at
@@ -131,6 +141,7 @@ impl Sweep {
             method: Method::Rk4,
             schedule: Schedule { step: 0.01, transient: 500.0, average: 1000.0, stride: 10 },
             observables: Observables { pairs: true, ..Observables::default() },
+            series: None,
             synchronised_below: Bound::Fixed(0.05),
             kick: ROUNDING_KICK,
         }

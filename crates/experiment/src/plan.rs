@@ -320,6 +320,7 @@ impl Checker<'_> {
             method: self.method(spec),
             schedule,
             observables: Observables { component, pairs, reference, clusters },
+            series: None,
             synchronised_below: spec.synchronised_below,
             kick: spec.kick,
         })

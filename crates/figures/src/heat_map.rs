@@ -4,6 +4,9 @@
 //! The matrix is one picture. At 300 dots per inch, the usual resolution of a PNG in print, every
 //! cell is a whole number of dots wide where that costs little of the size.
 
+mod axes;
+
+use self::axes::{LABEL_GAP, NodeAxes, TICK_LENGTH};
 use super::axis::{self, Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::colour_map::{Picture, block_means};
@@ -23,15 +26,11 @@ const SNAP_LOSS: f64 = 0.13;
 /// Pixels along the side of an embedded picture, at least: readers that blend pixels in spite of
 /// what the file says then blur the edges of cells only.
 const LEAST_PIXELS: usize = 600;
-/// Distance of labels from the frame.
-const LABEL_GAP: f64 = 3.5;
-const TICK_LENGTH: f64 = 2.0;
 /// Distances of the colour bar from the matrix and from its numbers, and its width.
 const BAR_GAP: f64 = 6.0;
 const BAR_WIDTH: f64 = 7.0;
 const NUMBER_GAP: f64 = 2.5;
-/// Least distance between numbers along the matrix and along the bar.
-const NODE_SPACING: f64 = 20.0;
+/// Least distance between numbers along the bar.
 const VALUE_SPACING: f64 = 16.0;
 
 /// A square matrix in colours.
@@ -73,7 +72,7 @@ impl HeatMapPanel {
         let range = self.value_range(panel)?;
         let Places { matrix, bar } = self.places(cell, range.unwrap_or([0.0, 1.0]), panel)?;
         self.draw_matrix(canvas, matrix, range)?;
-        self.draw_axes(canvas, matrix);
+        self.axes().draw(canvas, matrix);
         // What has no values needs no colours to read them by.
         match range {
             Some(range) => self.draw_bar(canvas, bar, range)?,
@@ -140,7 +139,7 @@ impl HeatMapPanel {
         let widest = |labels: Vec<Label>| {
             labels.iter().map(|label| label.width(TICK_SIZE)).fold(0.0, f64::max)
         };
-        let nodes = self.labels([cell.top, cell.bottom]).into_iter().map(|(_, label)| label);
+        let nodes = self.axes().labels([cell.top, cell.bottom]).into_iter().map(|(_, label)| label);
         let ticks = value_axis(range, [cell.bottom, cell.top]).ticks(VALUE_SPACING);
         // Room for two decimals even where there are none keeps the matrices of a column flush.
         let mut numbers = vec![Label::text("0.00")];
@@ -182,64 +181,8 @@ impl HeatMapPanel {
         Ok(())
     }
 
-    /// Names of groups or numbers of nodes below the matrix and at its left.
-    fn draw_axes(&self, canvas: &mut Canvas, matrix: Rect) {
-        let ink = Stroke::solid(INK, AXIS_WIDTH);
-        let [across, down] = [[matrix.left, matrix.right], [matrix.top, matrix.bottom]];
-        for (x, y) in self.ticks(across).into_iter().zip(self.ticks(down)) {
-            canvas.line([x, matrix.bottom], [x, matrix.bottom + TICK_LENGTH], ink);
-            canvas.line([matrix.left - TICK_LENGTH, y], [matrix.left, y], ink);
-        }
-        let baseline = matrix.bottom + LABEL_GAP + CAP_HEIGHT * TICK_SIZE;
-        for (x, label) in self.labels(across) {
-            canvas.label(&label, [x, baseline], TICK_SIZE, Anchor::Middle);
-        }
-        for (y, label) in self.labels(down) {
-            let at = [matrix.left - LABEL_GAP, y + CAP_HEIGHT * TICK_SIZE / 2.0];
-            canvas.label(&label, at, TICK_SIZE, Anchor::End);
-        }
-    }
-
-    fn has_names(&self) -> bool {
-        self.groups.iter().any(|g| !g.label.is_empty())
-    }
-
-    fn node_axis(&self, ends: [f64; 2]) -> Axis {
-        Axis::new(Scale::Linear, [0.5, self.n_nodes as f64 + 0.5], ends)
-    }
-
-    /// Numbers of nodes along an axis between these places, without those of half nodes.
-    fn numbers(&self, ends: [f64; 2]) -> Vec<Tick> {
-        let mut ticks = self.node_axis(ends).ticks(NODE_SPACING);
-        ticks.retain(|t| t.label.is_some());
-        ticks
-    }
-
-    /// Places of ticks along an axis: where groups meet, else at the numbers.
-    fn ticks(&self, ends: [f64; 2]) -> Vec<f64> {
-        if !self.has_names() {
-            return self.numbers(ends).iter().map(|tick| tick.at).collect();
-        }
-        let axis = self.node_axis(ends);
-        let between = groups::boundaries(&self.groups, self.n_nodes);
-        between.into_iter().filter_map(|node| axis.at(node as f64 + 0.5)).collect()
-    }
-
-    /// Labels along an axis, each with the place of its middle. A name wider than its group is
-    /// left out on both axes, so that they read the same.
-    fn labels(&self, ends: [f64; 2]) -> Vec<(f64, Label)> {
-        if !self.has_names() {
-            let numbers = self.numbers(ends).into_iter();
-            return numbers.filter_map(|tick| Some((tick.at, tick.label?))).collect();
-        }
-        let axis = self.node_axis(ends);
-        let place = |group: &Group| {
-            let [from, to] = group.span();
-            let (from, to) = axis.at(from).zip(axis.at(to))?;
-            let fits = group.label.width(TICK_SIZE) <= to - from;
-            fits.then(|| ((from + to) / 2.0, group.label.clone()))
-        };
-        self.groups.iter().filter_map(place).collect()
+    fn axes(&self) -> NodeAxes<'_> {
+        NodeAxes { groups: &self.groups, n_nodes: self.n_nodes }
     }
 
     fn draw_bar(

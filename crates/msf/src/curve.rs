@@ -7,9 +7,10 @@ use dynamics::{Coupling, Estimate, InstructionSet, NodeDynamics, Progress};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::isolated::Isolated;
+use crate::refinement::{Advance, Refinement};
 use crate::step::{Step, is_certain, with_shift};
 use crate::zero::Zero;
-use crate::zeros::{Advance, Finder, Refinement, Signed, sign};
+use crate::zeros::{Finder, Signed, sign};
 use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.

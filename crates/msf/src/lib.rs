@@ -14,6 +14,7 @@ mod fit;
 mod isolated;
 mod origin;
 mod reach;
+mod refinement;
 mod rest;
 mod stable_region;
 mod step;
@@ -27,8 +28,8 @@ pub use curve::{MasterStability, Node, Request, master_stability, master_stabili
 pub use error::MsfError;
 pub use isolated::Isolated;
 pub use reach::reach;
+pub use refinement::{Advance, Refinement};
 pub use stable_region::{End, Interval, StableRegion};
 pub use stretches::{Decided, KnownModes, Others, Stability, Stretch};
 pub use transitions::{Eigenspace, Transition, coupling_at, transition_at};
 pub use zero::Zero;
-pub use zeros::{Advance, Refinement};

@@ -7,6 +7,7 @@ use dynamics::Estimate;
 use crate::MsfError;
 use crate::attractors::{self, Column};
 use crate::fit::{Line, Sample, curvature};
+use crate::refinement::{Advance, Refinement, rounds_ahead};
 use crate::step::{Step, with_shift};
 use crate::zero::Zero;
 
@@ -25,34 +26,6 @@ const CERTAIN: f64 = 4.0;
 /// Half the width of the last window, in standard errors asked for and in those obtained: wide enough
 /// that noise does not hide the slope, and no wider.
 const WINDOW: f64 = 8.0;
-
-/// How far the refinement of a zero has come, told after each of its rounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Advance {
-    /// Where the zero is so far.
-    pub sigma: f64,
-    /// Its standard error so far.
-    pub standard_error: f64,
-    /// The standard error asked for.
-    pub wanted: f64,
-    /// About how many exponents it will still take: an error falls as the root of their number.
-    pub exponents_ahead: usize,
-}
-
-/// How well a zero of Λ must be known.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Refinement {
-    /// Standard error of σ at which a zero is good enough, relative to σ.
-    pub relative_error: f64,
-    /// Rounds of 32 exponents after which a zero is left as well known as it then is.
-    pub max_rounds: usize,
-}
-
-impl Default for Refinement {
-    fn default() -> Self {
-        Self { relative_error: 1e-3, max_rounds: 24 }
-    }
-}
 
 /// A σ whose sign is certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -236,7 +209,8 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
                 sigma: best.sigma,
                 standard_error: best.standard_error,
                 wanted: target,
-                exponents_ahead: ahead(best.standard_error / target, spent, left) * PER_ROUND,
+                exponents_ahead: rounds_ahead(best.standard_error / target, spent, left)
+                    * PER_ROUND,
             });
             // Where bending is what is left, the window may shrink to where noise sets the slope.
             let least = if bend > 0.5 * target { 0.5 * WINDOW * noise } else { narrow };
@@ -259,13 +233,6 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
         let (refined, step_shift) = (zero.refined && is_good, Some(shift));
         Ok(Zero { standard_error, refined, step_shift, ..zero })
     }
-}
-
-/// About how many rounds follow those that were spent, where the error is so many times what is asked.
-fn ahead(times: f64, spent: usize, left: usize) -> usize {
-    let rounds = (spent as f64 * (times * times - 1.0)).ceil();
-    // A window that is still too wide takes another round in any case.
-    (rounds.clamp(1.0, left.max(1) as f64)) as usize
 }
 
 fn mean_of(exponents: &[Estimate]) -> Estimate {
@@ -372,12 +339,6 @@ mod tests {
             noisy.calls
         };
         assert!(cost(0.1) > 2 * cost(0.01), "{} against {}", cost(0.1), cost(0.01));
-    }
-
-    #[test]
-    fn what_a_refinement_still_takes_follows_the_root_of_the_number_of_exponents() {
-        assert_eq!(ahead(2.0, 3, 20), 9, "half the error takes four times as many in all");
-        assert_eq!([ahead(0.5, 3, 20), ahead(100.0, 3, 20)], [1, 20]);
     }
 
     #[test]

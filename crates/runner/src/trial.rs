@@ -122,6 +122,7 @@ impl<'a> Bench<'a> {
             method: self.sweep.method,
             schedule: self.schedule,
             observables,
+            series: None,
             kick: self.sweep.kick,
             instruction_set: self.plan.study.msf.instruction_set,
         };

@@ -226,21 +226,21 @@ fn names_the_place(answer: &Answer, folder: &Path) -> Result<(), String> {
     if names_a_file && names_a_place { Ok(()) } else { Err(format!("no place in: {message}")) }
 }
 
-/// Nothing in the summary or the tables is NaN or infinite, nor stands for it.
+/// No number in the summary or the tables is NaN or infinite.
 fn numbers_are_finite(results: &Path) -> Result<(), String> {
     let text = fs::read_to_string(results.join("summary.json")).map_err(|e| e.to_string())?;
     let summary: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     if let Some(key) = finite::first_that_is_not(&summary) {
         return Err(format!("summary.json: {key} is not finite"));
     }
-    // The other tables have labels in them, and a node may be called `nan`.
+    // The other tables have labels in them, as first lines have, and a node may be called `nan`.
     for table in ["spectrum.csv", "msf.csv", "sweep.csv"].map(|name| results.join(name)) {
         if !table.exists() {
             continue;
         }
         let text = fs::read_to_string(&table).map_err(|error| error.to_string())?;
         let is_none = |field: &str| field.parse::<f64>().is_ok_and(|number| !number.is_finite());
-        if let Some(line) = text.lines().find(|line| line.split(',').any(is_none)) {
+        if let Some(line) = text.lines().skip(1).find(|line| line.split(',').any(is_none)) {
             return Err(format!("{}: not finite: {line}", table.display()));
         }
     }

@@ -1,5 +1,6 @@
 //! Whether every number of a `summary.json` is one. JSON has no NaN: what is none is written as null,
-//! and so is what `results/README.md` says to be unknown or not to exist. Only there it may stand.
+//! and so is what `results/README.md` says to be unknown or not to exist. Only there it may stand. No
+//! number is written as text: a text is a label, a name or a sentence, and a node may be called `NaN`.
 
 use serde_json::Value;
 
@@ -50,7 +51,7 @@ const MAY_BE_NULL: [&str; 29] = [
 /// all alike, or of a single seed; what is said of regions is a table of its own.
 const AGREEMENT: &str = "simulations[].agreement.";
 
-/// The first key whose value stands for a number but is none that is finite.
+/// The first key that has no finite number where there should be one.
 pub fn first_that_is_not(summary: &Value) -> Option<String> {
     first(summary, "")
 }
@@ -66,9 +67,8 @@ fn first(value: &Value, key: &str) -> Option<String> {
             return all.find_map(|(k, value)| first(value, &format!("{key}[{k}]")));
         }
         Value::Null => !may_be_null(key),
-        Value::String(text) => ["NaN", "inf", "-inf"].contains(&text.as_str()),
         Value::Number(number) => number.as_f64().is_some_and(|number| !number.is_finite()),
-        Value::Bool(_) => false,
+        Value::Bool(_) | Value::String(_) => false,
     };
     is_none.then(|| key.to_owned())
 }
@@ -111,8 +111,23 @@ mod tests {
             Some("simulations[0].error_to_reference[0].mean".into())
         );
         assert_eq!(
-            first(json!({ "msf": { "lyapunov_isolated": "NaN" } })),
+            first(json!({ "msf": { "lyapunov_isolated": null } })),
             Some("msf.lyapunov_isolated".into())
+        );
+    }
+
+    #[test]
+    fn a_node_may_have_the_name_of_what_is_no_number() {
+        let first = |summary: Value| first_that_is_not(&summary);
+        let labels = json!([["-inf", "a"], ["NaN", "inf"]]);
+        assert_eq!(
+            first(json!({ "cascade": [{ "epsilon": [0.5, 1.0], "clusters": labels }] })),
+            None
+        );
+        assert_eq!(first(json!({ "experiment": { "sweep": { "error_to": "-inf" } } })), None);
+        assert_eq!(
+            first(json!({ "cascade": [{ "clusters": labels, "n_alone": null }] })),
+            Some("cascade[0].n_alone".into())
         );
     }
 }

@@ -4,7 +4,7 @@ use clustering::{CascadeTree, ClusterRule, EigenvectorDistance, Partition, TreeE
 use msf::{Interval, StableRegion};
 use spectra::Spectrum;
 
-use crate::fixtures::{rotated, vectors_mut};
+use crate::fixtures::{block_spectrum, random_spectrum, rotated, vectors_mut};
 use crate::large_fixtures::{Fixture, all, communities, ring_of_cliques, scale_free};
 use crate::stable_set::cascade;
 
@@ -127,4 +127,44 @@ fn cascades_of_a_million_nodes() {
             );
         }
     }
+}
+
+/// What large networks cost; run with `--ignored --nocapture` to see it.
+#[test]
+#[ignore = "a measurement"]
+fn cascades_of_large_networks() {
+    let time = |name: &str, spectrum: &Spectrum, stable: &StableRegion, rule| {
+        let start = std::time::Instant::now();
+        let states = cascade(spectrum, stable, rule).unwrap();
+        println!("{name} {rule:?}: {} states in {:?}", states.len(), start.elapsed());
+    };
+    let stable = |from, to| StableRegion { intervals: vec![Interval::known(from, to)] };
+    let (open, window) = (stable(8.17, None), stable(0.2, Some(5.0)));
+    let all = random_spectrum(1000, 1000, 1);
+    time("1000 nodes, all modes", &all, &open, ClusterRule::Exact);
+    for threshold in [0.01, 0.03, 0.035, 0.04] {
+        time("1000 nodes, all modes", &all, &open, ClusterRule::Threshold(threshold));
+        time("1000 nodes, all modes, window", &all, &window, ClusterRule::Threshold(threshold));
+    }
+    time("1000 nodes with twins", &with_twins(&all), &open, ClusterRule::Exact);
+    let few = random_spectrum(20_000, 20, 1);
+    time("20000 nodes, 20 modes", &few, &open, ClusterRule::Exact);
+    for threshold in [1e-4, 1e-3, 5e-3] {
+        time("20000 nodes, 20 modes", &few, &open, ClusterRule::Threshold(threshold));
+    }
+    let blocks = block_spectrum(20_000, 8);
+    time("20000 nodes in 8 equal blocks", &blocks, &open, ClusterRule::Exact);
+    time("20000 nodes in 8 equal blocks", &blocks, &open, ClusterRule::Threshold(1e-4));
+}
+
+/// The spectrum with nodes 0 and 1 alike in all but the last mode, which is (1, −1, 0, …)/√2.
+fn with_twins(spectrum: &Spectrum) -> Spectrum {
+    let mut twins = spectrum.clone();
+    for v in vectors_mut(&mut twins) {
+        (v[0], v[1]) = (0.5 * (v[0] + v[1]), 0.5 * (v[0] + v[1]));
+    }
+    let last = vectors_mut(&mut twins).last().unwrap();
+    last.fill(0.0);
+    (last[0], last[1]) = (0.5f64.sqrt(), -0.5f64.sqrt());
+    twins
 }

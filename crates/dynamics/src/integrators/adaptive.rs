@@ -13,6 +13,7 @@ use crate::batches::Numbered;
 use crate::kicks::Kicks;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
+use crate::series::Recorder;
 use crate::tile::{slices, slices_mut};
 use crate::{ESCAPE_RADIUS, Next, Observer, Outcome, Simulation, Snapshot, Start};
 
@@ -29,6 +30,17 @@ pub(crate) fn run(
     let transient = schedule.transient_samples();
     let (done, end) = (start.sample(), transient + schedule.samples());
     let mut orbit = Orbit::begin(simulation, start);
+    let n_components = simulation.dynamics.start().len();
+    let mut recorder = Recorder::new(simulation.series.as_ref(), schedule, n_components);
+    let mut record = |sample: u64, y: &DVector<f64>| {
+        if recorder.due(sample) {
+            let state = |component: usize, node: usize| y[component * n_nodes + node];
+            recorder.tell((number, observer), (sample, schedule.time_of(sample)), state);
+        }
+    };
+    if done == 0 {
+        record(0, &orbit.y);
+    }
     let ended = |outcome: Outcome| {
         observer.finished(number, &outcome);
         Some(outcome)
@@ -48,6 +60,7 @@ pub(crate) fn run(
             let component = &y.as_slice()[observables.component * n_nodes..][..n_nodes];
             sums.sample(component.as_chunks().0.iter());
         }
+        record(sample, y);
         if kicks.due(sample) {
             y.iter_mut().for_each(|y| kicks.apply(std::array::from_mut(y)));
         }

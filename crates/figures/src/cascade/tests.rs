@@ -4,7 +4,8 @@
 use super::layout::{Clusters, Strand, strands};
 use super::*;
 use crate::cascade_error::CascadeError;
-use crate::tests::{boxes, texts};
+use crate::tests::overprint::boxes;
+use crate::tests::texts;
 use crate::{CascadeCluster, CascadePanel, CascadeState, Content, Figure, Panel};
 use resvg::usvg::roxmltree::{Document, Node};
 

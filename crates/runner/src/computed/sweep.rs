@@ -19,7 +19,7 @@ const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
 /// All replicas of the sweep of a plan.
 pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
     let &Work { plan, journal, stages } = work;
-    let simulation = plan.study.simulation(sweep, sweep.schedule);
+    let simulation = plan.study.simulation(sweep);
     let replicas = sweep.replicas();
     let shared = (work.matrix(), &plan.node, sweep.method, sweep.schedule);
     let shared = journal.key(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
@@ -67,7 +67,7 @@ pub fn effects_of_step(
     journal.once((Kind::StepEffects, key), || {
         let at = |schedule: Schedule| {
             let steps = probe.replicas.len() as u64 * schedule.steps();
-            let simulation = plan.study.simulation(sweep, schedule);
+            let simulation = plan.study.probing(sweep, schedule);
             let run = |progress: Progress<'_>| simulation.run(&probe.replicas, progress);
             stages.measured("half step", steps, run)
         };

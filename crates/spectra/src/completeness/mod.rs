@@ -13,6 +13,7 @@ use crate::completeness::randomised_test::{Probe, Probed};
 use crate::error::SpectraError;
 use crate::factorisation::symbolic::{DENSE_SPEED, Symbolic};
 use crate::matrix::product::Links;
+use crate::progress::{Advance, Progress};
 use crate::spectrum::Verification;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
@@ -35,6 +36,8 @@ pub(crate) struct Verifier<'a> {
     pub low: f64,
     /// Eigenvalues closer than this are equal.
     pub grouping: f64,
+    /// Asked by probes whether to go on; a factorisation cannot be stopped on the way.
+    pub progress: Progress<'a>,
 }
 
 impl Verifier<'_> {
@@ -90,6 +93,9 @@ impl Verifier<'_> {
     ) -> Result<Outcome, SpectraError> {
         let limit = claim.wanted.limit(claim.last, self.grouping);
         let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
+        let (products, n_modes) = (claim.products_spent, claim.n_modes);
+        let advance = Advance { products, converged: n_modes, wanted: n_modes };
+        let asked = advance.asked(self.progress);
         let send = |guards: &Guards, max_products: usize, random: &mut Random| {
             let probe = Probe {
                 low: self.low,
@@ -99,7 +105,7 @@ impl Verifier<'_> {
                 max_products,
                 probes,
             };
-            probe.send(self.links, (basis, claim.n_modes + guards.count), random)
+            probe.send(self.links, (basis, n_modes + guards.count), random, &asked)
         };
         let is_missing = |theta| theta > claim.wanted.missing_from(claim.last, self.grouping);
         let is_open =

@@ -12,6 +12,7 @@ use faer::Mat;
 
 use crate::error::SpectraError;
 use crate::matrix::product::Links;
+use crate::progress::Asked;
 use crate::recurrences::lanczos::Lanczos;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
@@ -75,6 +76,7 @@ impl LongSequence<'_> {
         mut start: Block,
         most_steps: usize,
         needed: impl Fn(&[f64]) -> usize,
+        asked: Asked<'_>,
     ) -> Result<(Vec<Block>, usize), SpectraError> {
         self.known.project_out(&mut start);
         let mut vectors = Basis::with_room(start.n_rows(), most_steps);
@@ -82,6 +84,7 @@ impl LongSequence<'_> {
         let mut lanczos = Lanczos::from(start, self.links, self.scale);
         let (mut next_look, mut before) = (FIRST_LOOK, None);
         loop {
+            asked(lanczos.steps())?;
             let (vector, norm) = lanczos.newest();
             vectors.append(vector);
             norms.push(norm);
