@@ -27,8 +27,10 @@ pub trait Observer: Sync {
         let _ = (replica, record);
     }
 
-    /// Whether to stop: asked at every step that is told, and between stages. Only the dense solver,
-    /// which tells of none, is not stopped on the way.
+    /// Whether to stop: asked at every step that is told, at every matrix–vector product of an
+    /// iterative eigensolver, and between stages. The dense eigensolver is not stopped on the way, nor
+    /// is a factorisation: of all modes the first takes a second at 1000 nodes and half a minute at
+    /// 5000, and the second is half a minute at the most.
     fn wants_to_stop(&self) -> bool {
         false
     }

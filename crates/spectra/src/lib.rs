@@ -64,7 +64,9 @@ pub fn leading_modes(w: &CouplingMatrix, request: &Request) -> Result<Spectrum, 
 }
 
 /// The same as [`leading_modes`], telling on the way how far it has come, and stopping where that is
-/// wanted; the dense solver and ARPACK tell of nothing.
+/// wanted. Iterative solvers ask at every product of a vector or a block. The dense solver tells of
+/// nothing: a second at 1000 nodes, growing as N³, passes in one call of faer, and so does a
+/// factorisation, of half a minute at the most.
 ///
 /// # Errors
 /// Those of [`leading_modes`], and [`SpectraError::Cancelled`].

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use crate::error::SpectraError;
+
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advance {
@@ -15,3 +17,21 @@ pub struct Advance {
 
 /// Called whenever a solver has come further, from whichever thread it works on; says whether to go on.
 pub type Progress<'a> = &'a (dyn Fn(Advance) -> ControlFlow<()> + Sync);
+
+/// Asked in the midst of a long piece of work, so many products after it began, whether to go on.
+pub(crate) type Asked<'a> = &'a dyn Fn(usize) -> Result<(), SpectraError>;
+
+impl Advance {
+    /// Tells how far it has come, and stops where that is wanted.
+    pub(crate) fn tell(self, progress: Progress<'_>) -> Result<(), SpectraError> {
+        if progress(self).is_break() { Err(SpectraError::Cancelled) } else { Ok(()) }
+    }
+
+    /// Tells the same of work that goes on from here.
+    pub(crate) fn asked(
+        self,
+        progress: Progress<'_>,
+    ) -> impl Fn(usize) -> Result<(), SpectraError> {
+        move |more| Self { products: self.products + more, ..self }.tell(progress)
+    }
+}

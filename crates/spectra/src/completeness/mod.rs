@@ -13,6 +13,7 @@ use crate::completeness::randomised_test::{Probe, Probed};
 use crate::error::SpectraError;
 use crate::factorisation::symbolic::{DENSE_SPEED, Symbolic};
 use crate::matrix::product::Links;
+use crate::progress::{Advance, Progress};
 use crate::spectrum::Verification;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
@@ -35,6 +36,8 @@ pub(crate) struct Verifier<'a> {
     pub low: f64,
     /// Eigenvalues closer than this are equal.
     pub grouping: f64,
+    /// Asked by probes whether to go on; a factorisation cannot be stopped on the way.
+    pub progress: Progress<'a>,
 }
 
 impl Verifier<'_> {
@@ -90,25 +93,29 @@ impl Verifier<'_> {
     ) -> Result<Outcome, SpectraError> {
         let limit = claim.wanted.limit(claim.last, self.grouping);
         let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
-        let send = |guards: &Guards, max_products: usize, random: &mut Random| {
+        let n_modes = claim.n_modes;
+        let send = |guards: &Guards, spent: usize, random: &mut Random| {
             let probe = Probe {
                 low: self.low,
                 expected: guards.next.max(self.low),
                 limit: limit - guards.perturbation,
                 top: claim.top,
-                max_products,
+                max_products: affordable.saturating_sub(spent),
                 probes,
             };
-            probe.send(self.links, (basis, claim.n_modes + guards.count), random)
+            let products = claim.products_spent + spent;
+            let advance = Advance { products, converged: n_modes, wanted: n_modes };
+            let asked = advance.asked(self.progress);
+            probe.send(self.links, (basis, n_modes + guards.count), random, &asked)
         };
         let is_missing = |theta| theta > claim.wanted.missing_from(claim.last, self.grouping);
         let is_open =
             |probed: &Probed| probed.confidence < LEAST_CONFIDENCE && !is_missing(probed.theta);
         let guards = Guards::new(claim, limit);
-        let mut probed = send(&guards, affordable, random)?;
+        let mut probed = send(&guards, 0, random)?;
         if guards.count > 0 && is_open(&probed) {
             let spent = probed.products;
-            probed = send(&Guards::none(claim), affordable.saturating_sub(spent), random)?;
+            probed = send(&Guards::none(claim), spent, random)?;
             probed.products += spent;
         }
         if is_open(&probed) && (probed.block.is_none() || claim.probes() == Block::WIDEST) {

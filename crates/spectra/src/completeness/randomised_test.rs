@@ -19,6 +19,7 @@ use std::f64::consts::PI;
 
 use crate::error::SpectraError;
 use crate::matrix::product::Links;
+use crate::progress::Asked;
 use crate::recurrences::chebyshev::{Interval, filter_between};
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
@@ -92,6 +93,7 @@ impl Probe {
         links: &Links<'_>,
         modes: (&Basis, usize),
         random: &mut Random,
+        asked: Asked<'_>,
     ) -> Result<Probed, SpectraError> {
         let (basis, n_modes) = modes;
         let n_rows = basis.n_rows();
@@ -114,8 +116,11 @@ impl Probe {
             }
             let stretch = unwanted.stretch(self.top, STRETCH_GAIN);
             clean(&mut probes_now);
+            let before = products;
             products += (degree + 1) * probes_now.width();
-            let filtered = filter_between(links, probes_now, degree, unwanted, stretch, clean);
+            let asked = |more: usize| asked(before + more);
+            let filtered =
+                filter_between(links, probes_now, (degree, stretch), unwanted, clean, &asked)?;
             block = basis.orthonormalise_against_first(n_modes, filtered)?;
             theta =
                 block.as_ref().map_or(Ok(self.low), |block| largest_ritz_value(links, block))?;

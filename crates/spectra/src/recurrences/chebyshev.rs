@@ -6,7 +6,9 @@
 //!
 //! Source: Y. Zhou, Y. Saad, M. L. Tiago & J. R. Chelikowsky, J. Comput. Phys. 219, 172 (2006).
 
+use crate::error::SpectraError;
 use crate::matrix::product::{Links, Step};
+use crate::progress::Asked;
 use crate::vectors::block::Block;
 
 /// The unwanted part [a, c] of the spectrum.
@@ -47,9 +49,15 @@ impl Interval {
     }
 }
 
-/// T_d(t(S)) X, with d ≥ 1 products for each vector.
-pub(crate) fn filter(links: &Links<'_>, x: Block, degree: usize, unwanted: Interval) -> Block {
-    filter_between(links, x, degree, unwanted, degree, |_| ())
+/// T_d(t(S)) X, with d ≥ 1 products for each vector, unless it is stopped on the way.
+pub(crate) fn filter(
+    links: &Links<'_>,
+    x: Block,
+    degree: usize,
+    unwanted: Interval,
+    asked: Asked<'_>,
+) -> Result<Block, SpectraError> {
+    filter_between(links, x, (degree, degree), unwanted, |_| (), asked)
 }
 
 /// T_d(t(S)) X where both vectors of the recurrence are cleaned, in the coordinates of S, every
@@ -57,11 +65,11 @@ pub(crate) fn filter(links: &Links<'_>, x: Block, degree: usize, unwanted: Inter
 pub(crate) fn filter_between(
     links: &Links<'_>,
     x: Block,
-    degree: usize,
+    (degree, stretch): (usize, usize),
     unwanted: Interval,
-    stretch: usize,
     clean: impl Fn(&mut Block),
-) -> Block {
+    asked: Asked<'_>,
+) -> Result<Block, SpectraError> {
     assert!(degree > 0, "a filter of degree 0");
     let (centre, half_width) = (unwanted.centre(), unwanted.half_width());
     let first = Step { product: 1.0 / half_width, same: -centre / half_width, previous: 0.0 };
@@ -70,6 +78,7 @@ pub(crate) fn filter_between(
     let mut now = Block::zeros(before.n_rows(), before.width());
     links.advance(&before, &mut now, first);
     for done in 1..degree {
+        asked(done * now.width())?;
         links.advance(&now, &mut before, next);
         std::mem::swap(&mut before, &mut now);
         if done % stretch == 0 {
@@ -78,5 +87,5 @@ pub(crate) fn filter_between(
             }
         }
     }
-    links.to_symmetric(now)
+    Ok(links.to_symmetric(now))
 }

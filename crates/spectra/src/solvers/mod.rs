@@ -70,16 +70,17 @@ fn by_iteration(
     // By Gershgorin, until a few Lanczos steps find more.
     let low = -2.0 * plan.scale;
     let grouping = plan.grouping;
-    let mut verifier = Verifier { w, symbolic: symbolic.as_ref(), links: &links, low, grouping };
-    let solver = choose(w, plan, symbolic.as_ref())?;
+    let symbolic = symbolic.as_ref();
+    let mut verifier = Verifier { w, symbolic, links: &links, low, grouping, progress };
+    let solver = choose(w, plan, symbolic)?;
     let mut random = Random::new(plan.seed);
-    let (found, verification) = match (solver, &symbolic) {
+    let (found, verification) = match (solver, symbolic) {
         #[cfg(not(feature = "arpack"))]
         (Solver::Arpack, _) => unreachable!("a plan never asks for what was not built"),
         #[cfg(feature = "arpack")]
         (Solver::Arpack, _) => {
             verifier.low = SpectralDensity::new(&links, plan.scale, &mut random)?.low;
-            arpack::leading(w, plan, &verifier, random)?
+            arpack::leading(w, plan, &verifier, random, progress)?
         }
         // Within the pool a thread finds in its cache what it wrote the time before: a third faster.
         (Solver::ShiftInvert, Some(symbolic)) => rayon::scope(|_| {

@@ -23,6 +23,7 @@ use crate::found::{Eigenpairs, Found};
 use crate::matrix::null_space::NullSpace;
 use crate::plan::Plan;
 use crate::plan::wanted::Wanted;
+use crate::progress::{Advance, Progress};
 use crate::solvers::arpack::library;
 use crate::solvers::arpack::library::{Outcome, Settings};
 use crate::solvers::arpack::operator::{Deflated, Operator, Shifted};
@@ -40,16 +41,17 @@ const WIDEST_LOOK: usize = 64;
 /// Stream of the generator of start vectors.
 const START_VECTORS: u128 = 0x05ec_74a1;
 
-/// The leading modes of S, whole eigenspaces only, by ARPACK.
+/// The leading modes of S, whole eigenspaces only, by ARPACK; may be stopped at every product.
 pub(crate) fn leading(
     w: &SymmetricForm<'_>,
     plan: &Plan,
     verifier: &Verifier<'_>,
     mut random: Random,
+    progress: Progress<'_>,
 ) -> Result<(Found, Verification), SpectraError> {
     let shift = 3.0 * plan.scale;
     let shifted = Shifted { matrix: w.symmetric(), shift };
-    let mut search = Search::new(w, &shifted, plan)?;
+    let mut search = Search::new(w, &shifted, plan, progress)?;
     let mut tries = 0;
     loop {
         let Complete { n_modes, next } = search.run()?;
@@ -97,6 +99,7 @@ struct Search<'a> {
     found: Eigenpairs,
     products: usize,
     random: Pcg64,
+    progress: Progress<'a>,
 }
 
 impl<'a> Search<'a> {
@@ -105,6 +108,7 @@ impl<'a> Search<'a> {
         w: &SymmetricForm<'_>,
         operator: &'a Shifted<'a>,
         plan: &'a Plan,
+        progress: Progress<'a>,
     ) -> Result<Self, SpectraError> {
         let null_space = NullSpace::of(w);
         let wanted = shifted(plan.wanted, operator.shift);
@@ -116,6 +120,7 @@ impl<'a> Search<'a> {
             found: Eigenpairs { values, vectors: null_space.vectors() },
             products: 0,
             random: Pcg64::new(u128::from(plan.seed), START_VECTORS),
+            progress,
         };
         search.check()?;
         Ok(search)
@@ -171,8 +176,11 @@ impl<'a> Search<'a> {
             max_products: self.plan.max_products.saturating_sub(self.products),
         };
         let start = self.start_vector();
+        let (products, converged) = (self.products, self.found.len());
+        let wanted = self.wanted.at_least().max(converged);
+        let asked = Advance { products, converged, wanted }.asked(self.progress);
         let deflated = Deflated { operator: self.operator, found: &self.found.vectors };
-        let (outcome, products) = library::largest(&deflated, start, &settings)?;
+        let (outcome, products) = library::largest(&deflated, start, &settings, &asked)?;
         self.products += products;
         match outcome {
             Outcome::Converged(pairs) => Ok(pairs),

@@ -18,6 +18,7 @@ use arpack_ng_sys::{dsaupd_c, dseupd_c};
 
 use crate::error::SpectraError;
 use crate::found::Eigenpairs;
+use crate::progress::Asked;
 use crate::solvers::arpack::operator::Operator;
 use crate::vectors::column::dot;
 
@@ -52,18 +53,20 @@ pub(crate) enum Outcome {
     Exhausted(usize),
 }
 
-/// Largest eigenvalues of a symmetric operator, from one start vector; with the products spent.
+/// Largest eigenvalues of a symmetric operator, from one start vector; with the products spent. It is
+/// asked at every product whether to go on, but not while another solve has the library.
 ///
 /// Copies of a multiple eigenvalue may be missing: a Krylov space knows of only one.
 pub(crate) fn largest(
     operator: &dyn Operator,
     start: Vec<f64>,
     settings: &Settings,
+    asked: Asked<'_>,
 ) -> Result<(Outcome, usize), SpectraError> {
     let mut lanczos = Lanczos::new(start, settings)?;
     // ARPACK starts afresh at ido = 0, whatever state a panic of the operator left behind.
     let _alone = ARPACK.lock().unwrap_or_else(PoisonError::into_inner);
-    let outcome = lanczos.iterate(operator, settings)?;
+    let outcome = lanczos.iterate(operator, settings, asked)?;
     Ok((outcome, lanczos.products))
 }
 
@@ -122,6 +125,7 @@ impl Lanczos {
         &mut self,
         operator: &dyn Operator,
         settings: &Settings,
+        asked: Asked<'_>,
     ) -> Result<Outcome, SpectraError> {
         let mut x = vec![0.0; self.n];
         let mut ido = 0;
@@ -136,6 +140,7 @@ impl Lanczos {
                 1 if self.products == settings.max_products => return Ok(Outcome::Exhausted(0)),
                 1 => {
                     self.products += 1;
+                    asked(self.products)?;
                     x.copy_from_slice(&self.workd[column(from, self.n)]);
                     let y = &mut self.workd[column(to, self.n)];
                     operator.apply(&x, y);

@@ -1,6 +1,8 @@
 //! How the block method amplifies what is wanted: by a Chebyshev filter of a degree that fits.
 
+use crate::error::SpectraError;
 use crate::matrix::product::Links;
+use crate::progress::Asked;
 use crate::recurrences::chebyshev::{Interval, filter};
 use crate::vectors::block::Block;
 
@@ -38,9 +40,14 @@ impl Amplifier<'_> {
     }
 
     /// Amplifies the vectors of a block.
-    pub fn apply(&self, block: Block, situation: &Situation) -> Block {
+    pub fn apply(
+        &self,
+        block: Block,
+        situation: &Situation,
+        asked: Asked<'_>,
+    ) -> Result<Block, SpectraError> {
         let unwanted = self.interval(situation);
-        filter(self.links, block, degree(situation, unwanted), unwanted)
+        filter(self.links, block, degree(situation, unwanted), unwanted, asked)
     }
 
     /// Steps after which what rounding leaves of the largest eigenvalue has to be projected out again,

@@ -12,6 +12,7 @@ use faer::Mat;
 
 use crate::error::SpectraError;
 use crate::matrix::product::Links;
+use crate::progress::Asked;
 use crate::recurrences::lanczos::Lanczos;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
@@ -75,6 +76,7 @@ impl LongSequence<'_> {
         mut start: Block,
         most_steps: usize,
         needed: impl Fn(&[f64]) -> usize,
+        asked: Asked<'_>,
     ) -> Result<(Vec<Block>, usize), SpectraError> {
         self.known.project_out(&mut start);
         let mut vectors = Basis::with_room(start.n_rows(), most_steps);
@@ -86,6 +88,7 @@ impl LongSequence<'_> {
             vectors.append(vector);
             norms.push(norm);
             let last = !lanczos.step() || lanczos.steps() == most_steps;
+            asked(lanczos.steps())?;
             if last || lanczos.steps() == next_look {
                 let ritz = Ritz::of(&lanczos, self.grouping, &needed)?;
                 next_look = ritz.next_look(STRICTLY * self.residual_bound, self.scale, before);

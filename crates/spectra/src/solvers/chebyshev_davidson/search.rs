@@ -100,7 +100,7 @@ impl<'a> Search<'a> {
                 self.plan.residual_bound,
             );
             self.plan.wanted.check(&self.settled, self.plan.grouping)?;
-            self.report(&ritz)?;
+            self.advance(&ritz).tell(self.progress)?;
             if let Some(n_modes) = self.complete(&ritz, &front)
                 && self.all_converged(&ritz, n_modes)?
             {
@@ -155,8 +155,9 @@ impl<'a> Search<'a> {
             cutoff: self.plan.wanted.cutoff(),
         };
         let block = self.space.basis.combine(ritz.columns(first, width));
+        let asked = self.advance(ritz).asked(self.progress);
         self.spend(amplifier.products(&situation) * width)?;
-        Ok(Some(amplifier.apply(block, &situation)))
+        amplifier.apply(block, &situation, &asked).map(Some)
     }
 
     /// Adds the Ritz vectors of a long sequence that starts from those that have not converged; the
@@ -189,7 +190,8 @@ impl<'a> Search<'a> {
             scale: plan.scale,
         };
         let most_steps = most_steps.min(plan.max_products.saturating_sub(self.products));
-        let (vectors, products) = sequence.run(start, most_steps, needed)?;
+        let asked = self.advance(ritz).asked(self.progress);
+        let (vectors, products) = sequence.run(start, most_steps, needed, &asked)?;
         self.spend(products)?;
         for block in vectors {
             self.extend(Some(block))?;
@@ -334,14 +336,13 @@ impl<'a> Search<'a> {
         self.plan.exhausted(self.settled.len(), self.products)
     }
 
-    /// Tells how far it has come, and stops where that is wanted.
-    fn report(&self, ritz: &Eigen) -> Result<(), SpectraError> {
-        let advance = Advance {
+    /// How far it has come.
+    fn advance(&self, ritz: &Eigen) -> Advance {
+        Advance {
             products: self.products,
             converged: self.settled.len(),
             wanted: self.plan.wanted.known(&ritz.values, self.plan.grouping),
-        };
-        if (self.progress)(advance).is_break() { Err(SpectraError::Cancelled) } else { Ok(()) }
+        }
     }
 
     /// The leading vectors of a basis that consists of Ritz vectors.

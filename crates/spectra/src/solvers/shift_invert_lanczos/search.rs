@@ -138,7 +138,9 @@ impl<'a> Search<'a> {
             let (settled, next) = self.settled(&ritz);
             self.n_settled = settled.len();
             self.plan.wanted.check(&settled, self.plan.grouping)?;
-            self.report(&ritz)?;
+            let (products, converged) = (self.products, self.n_settled);
+            let advance = Advance { products, converged, wanted: self.known(&ritz) };
+            advance.tell(self.progress)?;
             let is_all = self.next.is_none();
             let enough = is_all || settled.len() >= self.at_least;
             if let Some(n_modes) = self.complete(&settled, next).filter(|_| enough) {
@@ -390,15 +392,5 @@ impl<'a> Search<'a> {
 
     fn exhausted(&self) -> SpectraError {
         self.plan.exhausted(self.n_settled, self.products)
-    }
-
-    /// Tells how far it has come, and stops where that is wanted.
-    fn report(&self, ritz: &Ritz) -> Result<(), SpectraError> {
-        let advance = Advance {
-            products: self.products,
-            converged: self.n_settled,
-            wanted: self.known(ritz),
-        };
-        if (self.progress)(advance).is_break() { Err(SpectraError::Cancelled) } else { Ok(()) }
     }
 }
