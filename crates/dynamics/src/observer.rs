@@ -24,9 +24,10 @@ pub trait Observer: Sync {
     }
 
     /// The next record of a replica, where the simulation has a [`crate::Series`]; those of one replica
-    /// come in their order, and none from the sample on at which an orbit is seen to have escaped. A
-    /// replica that goes on from a snapshot tells of the samples after it: what an earlier run told
-    /// of these comes again, with the same numbers and to the same bits.
+    /// come in their order, that of a sample before the snapshot after it, and none from the sample on
+    /// at which an orbit is seen to have escaped. A replica that goes on from a snapshot tells of the
+    /// samples after it: what an earlier run told of these comes again, with the same numbers and to
+    /// the same bits.
     fn recorded(&self, replica: usize, record: &Record<'_>) {
         let _ = (replica, record);
     }

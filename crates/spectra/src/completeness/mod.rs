@@ -93,28 +93,39 @@ impl Verifier<'_> {
     ) -> Result<Outcome, SpectraError> {
         let limit = claim.wanted.limit(claim.last, self.grouping);
         let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
+<<<<<<< HEAD
         let (products, n_modes) = (claim.products_spent, claim.n_modes);
         let advance = Advance { products, converged: n_modes, wanted: n_modes };
         let asked = advance.asked(self.progress);
         let send = |guards: &Guards, max_products: usize, random: &mut Random| {
+=======
+        let n_modes = claim.n_modes;
+        let send = |guards: &Guards, spent: usize, random: &mut Random| {
+>>>>>>> part-S
             let probe = Probe {
                 low: self.low,
                 expected: guards.next.max(self.low),
                 limit: limit - guards.perturbation,
                 top: claim.top,
-                max_products,
+                max_products: affordable.saturating_sub(spent),
                 probes,
             };
+<<<<<<< HEAD
+=======
+            let products = claim.products_spent + spent;
+            let advance = Advance { products, converged: n_modes, wanted: n_modes };
+            let asked = advance.asked(self.progress);
+>>>>>>> part-S
             probe.send(self.links, (basis, n_modes + guards.count), random, &asked)
         };
         let is_missing = |theta| theta > claim.wanted.missing_from(claim.last, self.grouping);
         let is_open =
             |probed: &Probed| probed.confidence < LEAST_CONFIDENCE && !is_missing(probed.theta);
         let guards = Guards::new(claim, limit);
-        let mut probed = send(&guards, affordable, random)?;
+        let mut probed = send(&guards, 0, random)?;
         if guards.count > 0 && is_open(&probed) {
             let spent = probed.products;
-            probed = send(&Guards::none(claim), affordable.saturating_sub(spent), random)?;
+            probed = send(&Guards::none(claim), spent, random)?;
             probed.products += spent;
         }
         if is_open(&probed) && (probed.block.is_none() || claim.probes() == Block::WIDEST) {

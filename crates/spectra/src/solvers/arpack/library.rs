@@ -141,6 +141,7 @@ impl Lanczos {
                 1 => {
                     asked(self.products)?;
                     self.products += 1;
+                    asked(self.products)?;
                     x.copy_from_slice(&self.workd[column(from, self.n)]);
                     let y = &mut self.workd[column(to, self.n)];
                     operator.apply(&x, y);

@@ -89,6 +89,7 @@ impl LongSequence<'_> {
             vectors.append(vector);
             norms.push(norm);
             let last = !lanczos.step() || lanczos.steps() == most_steps;
+            asked(lanczos.steps())?;
             if last || lanczos.steps() == next_look {
                 let ritz = Ritz::of(&lanczos, self.grouping, &needed)?;
                 next_look = ritz.next_look(STRICTLY * self.residual_bound, self.scale, before);
