@@ -110,7 +110,8 @@ pub fn run(args: &Args) -> Result<()> {
             warnings: warnings.iter().map(warning::kept).collect(),
             provenance: Provenance::new(&plan, journal.taken(), took, place.origin()),
         };
-        let json = serde_json::to_string_pretty(&summary)
+        let json = serde_json::to_value(&summary)
+            .map(|value| runner::json::text(&value))
             .map_err(|error| Problem::from_error("the summary cannot be written as JSON", error))?;
         folder.write("summary.json", format!("{json}\n"))?;
         Ok((plan, msf, place.finish(folder)?, json))

@@ -199,4 +199,23 @@ mod tests {
         assert_eq!(due(&series(20)), [20, 40, 60]);
         assert_eq!(due(&Series { from: Some(0.0), to: Some(10.1), ..series(10) }), [0, 10, 20]);
     }
+
+    #[test]
+    fn series_that_cannot_be_had_are_refused() {
+        let refused = |series: Series| series.check(&SCHEDULE, (5, 3)).unwrap_err();
+        let one = || Series::of(vec![1]);
+        let node = refused(Series::of(vec![0, 5]));
+        assert_eq!(node, DynamicsError::NoSuchNode { node: 5, n_nodes: 5 });
+        let component = refused(Series { components: Some(vec![3]), ..one() });
+        assert_eq!(component, DynamicsError::NoSuchComponent { component: 3, n_components: 3 });
+        let before = refused(Series { from: Some(-1.0), ..one() });
+        assert_eq!(before, DynamicsError::BadTime { name: "start of the series", value: -1.0 });
+        let (name, value) = ("end of the series", f64::INFINITY);
+        let never = refused(Series { to: Some(value), ..one() });
+        assert_eq!(never, DynamicsError::BadTime { name, value });
+        let empty = |every, from, to| DynamicsError::EmptySeries { every, from, to };
+        assert_eq!(refused(Series { every: 0, ..one() }), empty(0, 10.0, 30.0));
+        assert_eq!(refused(Series { to: Some(9.0), ..one() }), empty(1, 10.0, 9.0));
+        assert_eq!(refused(Series { from: Some(31.0), ..one() }), empty(1, 31.0, 30.0));
+    }
 }

@@ -11,7 +11,7 @@ mod plan;
 pub mod spec;
 
 pub use hashes::plan_hash;
-pub use plan::{Memory, Node, Plan, QUICK, Text, plan, plan_hash_of, plan_of};
+pub use plan::{Memory, Node, Plan, QUICK, Recorded, Text, plan, plan_hash_of, plan_of};
 
 use std::path::Path;
 

@@ -39,7 +39,7 @@ pub fn parse(text: &str, path: &Path) -> Result<(Experiment, serde_json::Value)>
 }
 
 /// Whether the value of a key is a table with keys of its own. `*` stands for any name.
-const TABLES: [&str; 19] = [
+const TABLES: [&str; 20] = [
     "network",
     "network.file",
     "network.file.attributes",
@@ -56,6 +56,7 @@ const TABLES: [&str; 19] = [
     "msf",
     "prediction",
     "sweep",
+    "sweep.series",
     "figure",
     "claims",
     "claims.*",

@@ -9,6 +9,7 @@ mod node;
 mod numbers;
 mod parameters;
 mod ranges;
+mod series;
 mod source;
 mod spectrum;
 mod step;
@@ -30,6 +31,7 @@ use graph::{CouplingMatrix, Names, Network, Normalization};
 pub use memory::Memory;
 pub use node::Node;
 use serde_json::Value;
+pub use series::Recorded;
 
 use crate::hashes::{links_hash, plan_hash};
 use crate::load;
@@ -75,6 +77,8 @@ pub struct Plan {
     pub figure: FigureSpec,
     /// What the source says, each claim of an instance that will be there.
     pub claims: Vec<Claim>,
+    /// Of which replicas states on the way are written.
+    pub recorded: Option<Recorded>,
     /// What is doubtful about it, though it can be done.
     pub doubts: Vec<Warning>,
 }
@@ -157,6 +161,10 @@ fn of(
     checker.regions(&study.network)?;
     checker.figure(&study.network, &study.modes)?;
     let claims = checker.claims(&study)?;
+    let recorded = match &study.sweep {
+        Some(sweep) => checker.recorded(sweep, &study.network, node.model)?,
+        None => None,
+    };
     Memory::of_study(&study, experiment.figure.kind).affordable(file)?;
     let parameters = parameters::of(&experiment, &study, &node);
     let Experiment { title, source, coupling, prepare, figure, .. } = experiment;
@@ -176,6 +184,7 @@ fn of(
         node,
         figure,
         claims,
+        recorded,
         doubts,
     })
 }
@@ -320,7 +329,11 @@ impl Checker<'_> {
             method: self.method(spec),
             schedule,
             observables: Observables { component, pairs, reference, clusters },
-            series: None,
+            series: spec
+                .series
+                .as_ref()
+                .map(|series| self.series(series, network, model))
+                .transpose()?,
             synchronised_below: spec.synchronised_below,
             kick: spec.kick,
         })

@@ -183,6 +183,31 @@ pub struct SweepSpec {
     pub clusters: Vec<Vec<Name>>,
     /// Two nodes count as synchronised when δx_ij is below this, and a cluster when δx^c_m is.
     pub synchronised_below: Bound,
+    /// States of nodes on the way, written to files of their own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub series: Option<SeriesSpec>,
+}
+
+/// `[sweep.series]`: states of chosen nodes, to be plotted as they are.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeriesSpec {
+    /// Labels of nodes, or names of groups for all of their nodes.
+    pub nodes: Vec<Name>,
+    /// Components; all of them by default.
+    pub components: Option<Vec<String>>,
+    /// Samples from one state to the next.
+    #[serde(default = "one")]
+    pub every: u64,
+    /// Time of the first state, 0 for the initial one; by default the end of the transient.
+    pub from: Option<f64>,
+    /// Time of the last state; by default the end.
+    pub to: Option<f64>,
+    /// Points of the sweep; all of them by default.
+    pub epsilon: Option<Vec<f64>>,
+    /// Of how many seeds at each.
+    #[serde(default = "one")]
+    pub seeds: u64,
 }
 
 /// Integrators.

@@ -59,7 +59,10 @@ impl<'a> Names<'a> {
     }
 
     /// The node with this label or, failing that, the nodes of the group of this name.
-    fn nodes(&self, name: &str) -> Result<Vec<usize>, NameError> {
+    ///
+    /// # Errors
+    /// [`NameError::Unknown`] if there is neither.
+    pub fn nodes(&self, name: &str) -> Result<Vec<usize>, NameError> {
         if let Some(&node) = self.nodes.get(name) {
             return Ok(vec![node]);
         }

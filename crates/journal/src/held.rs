@@ -24,7 +24,7 @@ impl Held {
             Kind::Curve => self.curve = true,
             Kind::Spectrum => self.spectrum = true,
             Kind::Replica => self.replicas += 1,
-            Kind::Begun | Kind::Look | Kind::Snapshot | Kind::StepEffects => {}
+            Kind::Begun | Kind::Look | Kind::Snapshot | Kind::StepEffects | Kind::States => {}
         }
     }
 

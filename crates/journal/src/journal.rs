@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime};
 
@@ -12,6 +12,7 @@ use user::{Problem, Result, Watch};
 
 use crate::log::{Damage, Log};
 use crate::snapshots::{self, Snapshots};
+use crate::trajectory::{self, Trajectory};
 use crate::{Held, Key, Kind};
 
 /// The file in the hidden folder.
@@ -19,7 +20,7 @@ const JOURNAL: &str = "journal";
 
 /// Whether a file in a hidden folder is called as what a journal consists of.
 pub fn is_its(name: &str) -> bool {
-    name == JOURNAL || snapshots::is_one(name)
+    name == JOURNAL || snapshots::is_one(name) || trajectory::is_one(name)
 }
 
 /// A run that began.
@@ -33,6 +34,7 @@ struct Begun {
 
 /// The journal of one run.
 pub struct Journal {
+    folder: PathBuf,
     id: String,
     program: String,
     watch: Arc<dyn Watch>,
@@ -84,6 +86,7 @@ impl Journal {
         let mut snapshots = Snapshots::new(folder);
         if fresh {
             snapshots.clear();
+            trajectory::clear(folder);
             match std::fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                     return Err(failed(error));
@@ -105,6 +108,7 @@ impl Journal {
             }
         }
         Ok(Self {
+            folder: folder.to_owned(),
             id: id.to_owned(),
             program: program.to_owned(),
             watch,
@@ -167,6 +171,11 @@ impl Journal {
         state.taken.states += 1;
         state.running.insert(*key);
         Some(snapshot)
+    }
+
+    /// The states of a replica on the way, as far as an earlier run has left them.
+    pub fn trajectory(&self, key: &Key) -> Trajectory {
+        Trajectory::open(&self.folder, key)
     }
 
     /// Keeps the state of a replica that is still running.

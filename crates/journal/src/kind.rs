@@ -18,10 +18,12 @@ pub enum Kind {
     Snapshot = 6,
     /// What the step of the integrator does to simulated errors.
     StepEffects = 7,
+    /// States of a replica on the way; in files of their own.
+    States = 8,
 }
 
 impl Kind {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Begun,
         Self::Look,
         Self::Curve,
@@ -29,6 +31,7 @@ impl Kind {
         Self::Replica,
         Self::Snapshot,
         Self::StepEffects,
+        Self::States,
     ];
 
     /// The kind of a number that stands in a file.

@@ -5,7 +5,8 @@
 //! or of one that was edited, takes over exactly what it would compute again, to the same bits. What
 //! cannot be kept, as where a disk is full, costs time at the next run and nothing at this one.
 //!
-//! `record` is the form of the records, `log` the file, `snapshots` the states of what still runs.
+//! `record` is the form of the records, `log` the file, `snapshots` the states of what still runs, and `trajectory` those on the way that a user
+//! asks for.
 
 mod held;
 mod journal;
@@ -14,10 +15,12 @@ mod kind;
 mod log;
 mod record;
 mod snapshots;
+mod trajectory;
 mod worth;
 
 pub use held::Held;
 pub use journal::{Journal, is_its};
 pub use key::Key;
 pub use kind::Kind;
+pub use trajectory::Trajectory;
 pub use worth::is_worth_keeping;

@@ -13,6 +13,9 @@ use experiment::spec::{FigureKind, MatrixKind};
 use experiment::{Memory, Plan};
 use user::text::one_line;
 
+/// Characters of a number in a table.
+const TEXT_OF_A_NUMBER: f64 = 20.0;
+
 /// What is unusual about a network, before anything is computed.
 pub fn doubts(plan: &Plan) -> Vec<Warning> {
     let network = &plan.study.network;
@@ -97,11 +100,32 @@ pub fn describe(plan: &Plan) -> String {
             ),
         );
     }
+    if let Some(recorded) = &plan.recorded {
+        line(
+            "series",
+            format!(
+                "{} replicas, {} states of {} numbers each; about {} of tables",
+                recorded.replicas.len(),
+                recorded.n_states,
+                recorded.columns.len(),
+                in_bytes(TEXT_OF_A_NUMBER * recorded.n_numbers())
+            ),
+        );
+    }
     line("figure", figure(plan));
     line("claims", plan.claims.len().to_string());
     line("memory", format!("about {}", Memory::of(plan)));
     line("cost", Cost::of(plan).words());
     text
+}
+
+/// A size as people read it.
+fn in_bytes(bytes: f64) -> String {
+    match bytes {
+        1e9.. => format!("{:.1} GB", bytes / 1e9),
+        1e6.. => format!("{:.0} MB", bytes / 1e6),
+        _ => format!("{:.0} kB", (bytes / 1e3).ceil()),
+    }
 }
 
 /// The kind of the figure, and what it will not show as asked.

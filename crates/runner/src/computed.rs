@@ -2,6 +2,9 @@
 //! Each is taken from the journal if an earlier run has left it there, and kept in it otherwise.
 
 mod sweep;
+mod trajectories;
+
+pub use sweep::recorded;
 
 use std::cell::RefCell;
 use std::time::Instant;

@@ -9,6 +9,7 @@ mod cascade_files;
 pub mod check;
 pub mod computed;
 pub mod findings;
+pub mod json;
 mod membership;
 pub mod overview;
 pub mod program;

@@ -1,7 +1,7 @@
 //! Everything a run writes: the summary, the tables, the figure.
 
 use eigensync::numbers::plain;
-use eigensync::{Findings, Simulated, Warning, completed};
+use eigensync::{Findings, Simulated, Sweep, Warning, completed};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -9,12 +9,12 @@ use dynamics::{Errors, Estimate};
 use msf::MasterStability;
 use serde_json::Value;
 
-use crate::Work;
 use crate::cascade_files;
 use crate::membership;
 use crate::record::{Summary, summarise};
 use crate::report::{self, REPORT};
 use crate::warning;
+use crate::{Work, computed, json};
 use claims::Judged;
 use experiment::Plan;
 use experiment::spec::FigureKind;
@@ -42,15 +42,19 @@ pub struct Written {
 /// # Errors
 /// Where a file cannot be written, or the folder not be put in place.
 pub fn write(
-    &Work { plan, journal, stages }: &Work<'_>,
+    work: &Work<'_>,
     findings: &Findings,
     claims: Vec<Judged>,
     golden: Option<&Value>,
     took: &dyn Fn() -> Duration,
     place: Place,
 ) -> Result<Written> {
+    let &Work { plan, journal, stages } = work;
     let folder = place.folder()?;
     stages.unmeasured("files", || write_tables(&folder, plan, findings))?;
+    if let Some(sweep) = &plan.study.sweep {
+        stages.unmeasured("series", || write_series(&folder, work, sweep))?;
+    }
     let picture = stages.unmeasured("figure", || drawing::picture(plan, findings));
     let tell = |warning: &Warning| warning::say(&plan.id, warning, &**stages.watch());
     let mut warnings = eigensync::Warnings::after(&[], &tell);
@@ -77,17 +81,11 @@ pub fn write(
     let failed = |error| {
         Problem::from_error("the summary cannot be written as JSON", error).in_file(&plan.file)
     };
-    let json = serde_json::to_string_pretty(&summary).map_err(failed)?;
-    let comparison = match golden {
-        Some(golden) => {
-            let value = serde_json::to_value(&summary).map_err(failed)?;
-            Some(golden::compare_summaries(golden, &value))
-        }
-        None => None,
-    };
+    let value = serde_json::to_value(&summary).map_err(failed)?;
+    let comparison = golden.map(|golden| golden::compare_summaries(golden, &value));
     let Summary { claims, warnings, .. } = &summary;
     folder.write(REPORT, report::of(plan, findings, claims, warnings, comparison.as_ref()))?;
-    folder.write("summary.json", json + "\n")?;
+    folder.write("summary.json", json::text(&value) + "\n")?;
     Ok(Written { place: place.finish(folder)?, comparison })
 }
 
@@ -163,6 +161,26 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
         row
     });
     folder.write_table("sweep.csv", &header, rows)
+}
+
+/// The states on the way that were asked for: of each replica a table with a row for each time.
+fn write_series(folder: &Folder, work: &Work<'_>, sweep: &Sweep) -> Result<()> {
+    let Some(recorded) = &work.plan.recorded else { return Ok(()) };
+    for (replica, trajectory) in computed::recorded(work, sweep) {
+        let name = format!("series_epsilon_{}_seed_{}.csv", plain(replica.epsilon), replica.seed);
+        folder.write_through(&name, |out| {
+            let mut table = csv::Writer::from_writer(out);
+            table.write_field("time")?;
+            table.write_record(&recorded.columns)?;
+            trajectory.read(|time, state| {
+                table.write_field(number(time))?;
+                table.write_record(state.iter().map(|&x| number(x)))?;
+                Ok(())
+            })?;
+            table.flush()
+        })?;
+    }
+    Ok(())
 }
 
 /// δe_ij and δx_ij of every ε, where the figure shows them, as NumPy arrays of shape (N, N). ε stands in

@@ -15,6 +15,7 @@ mod odd_networks;
 mod place;
 mod predict;
 mod results;
+mod series;
 mod stability;
 #[path = "../support/mod.rs"]
 mod support;

@@ -213,3 +213,26 @@ fn a_relative_bound_is_a_fraction() {
         &["`regions.distance_within` is -1, but must be finite and above zero"],
     );
 }
+
+#[test]
+fn series_of_what_is_not_there_are_refused() {
+    let with = |keys: &str| tiny().and(&format!("\n[sweep.series]\n{keys}\n"));
+    for (keys, said) in [
+        ("nodes = []", "`sweep.series.nodes` is empty, but needs a node"),
+        ("nodes = [7]", "`sweep.series.nodes` names node \"7\", which the network does not have"),
+        ("nodes = [1, 1]", "`sweep.series.nodes` has node \"1\" twice"),
+        ("nodes = [1]\ncomponents = [\"w\"]", "`sweep.series.components` is \"w\""),
+        ("nodes = [1]\nevery = 0", "`sweep.series.every` is 0"),
+        ("nodes = [1]\nseeds = 3", "`sweep.series.seeds` is 3, but the sweep has 2 seeds"),
+        ("nodes = [1]\nfrom = -1", "`sweep.series.from` is -1"),
+        ("nodes = [1]\nfrom = 50\nto = 45", "`sweep.series` asks for no state"),
+        ("nodes = [1]\nfrom = 1e9", "`sweep.series` asks for no state"),
+        ("nodes = [1]\nepsilon = [1.5]", "`sweep.series.epsilon` has 1.5, which is not a point"),
+        ("nodes = [1]\nepsilon = []", "`sweep.series.epsilon` is empty"),
+        ("nodes = [1]\nevry = 2", "unknown key `sweep.series.evry`"),
+    ] {
+        check_refused(&with(keys), &[said]);
+    }
+    let endless = with("nodes = [1]").set("sweep.average", "1e9");
+    check_refused(&endless, &["`sweep.series` asks for", "the most is", "every"]);
+}

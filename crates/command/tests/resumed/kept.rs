@@ -176,3 +176,38 @@ fn a_coupling_that_cannot_be_integrated_is_an_outcome_of_its_runs() {
     assert!(sweep.contains("\n10000000.0,2,failed at 0.000"), "{sweep}");
     assert!(sweep.contains(": the equations are too stiff for an explicit method,"), "{sweep}");
 }
+
+#[test]
+fn states_on_the_way_go_on_where_a_run_was_killed_to_the_same_bits() {
+    let with_series = || {
+        let keys = "\n[sweep.series]\nnodes = [1, 4]\nseeds = 8\nfrom = 0\nevery = 2\n";
+        forty().and(keys)
+    };
+    let whole = with(&with_series());
+    run(&whole, &["--threads", "1"]);
+    for signal in ["KILL", "TERM"] {
+        let place = with(&with_series());
+        let killed = start(&place, &["run", "tiny.toml", "--threads", "1"]);
+        let end = send_when(killed, signal, || journal_length(&place) > 8_000);
+        assert!(end.status.is_some_and(|status| !status.success()), "the run was over");
+        run(&place, &[]);
+        assert!(taken_over(&place)["replicas"].as_u64().unwrap() > 0);
+        let series = whole.names("results/tiny");
+        let series = series.iter().filter(|name| name.starts_with("series_"));
+        assert_eq!(series.clone().count(), 40);
+        for name in series {
+            let [expected, resumed] =
+                [&whole, &place].map(|place| place.read(&format!("results/tiny/{name}")));
+            assert!(expected == resumed, "{signal}: {name} differs");
+        }
+    }
+}
+
+#[test]
+fn series_that_are_asked_for_later_have_their_replicas_run_again() {
+    let place = interrupted();
+    let keys = "\n[sweep.series]\nnodes = [1]\nepsilon = [1.0]\n";
+    place.write("tiny.toml", forty().and(keys).0);
+    run(&place, &[]);
+    assert!(place.path("results/tiny/series_epsilon_1_seed_1.csv").exists());
+}

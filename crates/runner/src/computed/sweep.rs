@@ -6,11 +6,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use dynamics::{
-    DynamicsError, Next, Observer, Outcome, Progress, Replica, Run, Schedule, Snapshot, Start,
+    DynamicsError, Next, Observer, Outcome, Progress, Record, Replica, Run, Schedule, Snapshot,
+    Start,
 };
 
 use crate::Work;
-use journal::{Journal, Key, Kind};
+use journal::{Journal, Key, Kind, Trajectory};
+
+use super::trajectories::{Trajectories, trajectory};
 
 /// How long a batch runs before it leaves its states, and between one time and the next: what a kill
 /// costs, and long against the time that writing takes.
@@ -21,23 +24,27 @@ pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
     let &Work { plan, journal, stages } = work;
     let simulation = plan.study.simulation(sweep);
     let replicas = sweep.replicas();
-    let shared = (work.matrix(), &plan.node, sweep.method, sweep.schedule);
-    let shared = journal.key(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
-    let key =
-        |replica: &Replica| journal.key(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
-    let keys: Vec<Key> = replicas.iter().map(key).collect();
+    let keys = keys(work, sweep, &replicas);
     journal.expect_replicas(replicas.len());
-    let take = |key: &Key| journal.take::<Outcome>(Kind::Replica, key);
-    let mut outcomes: Vec<Option<Outcome>> = keys.iter().map(take).collect();
+    let trajectories = Trajectories::of(work, sweep, &keys);
+    let take = |(at, key): (usize, &Key)| {
+        let outcome = journal.take::<Outcome>(Kind::Replica, key);
+        outcome.filter(|_| trajectories.are_whole(at))
+    };
+    let mut outcomes: Vec<Option<Outcome>> = keys.iter().enumerate().map(take).collect();
     let left: Vec<usize> = (0..replicas.len()).filter(|&at| outcomes[at].is_none()).collect();
-    let from = |key: &Key| journal.snapshot(key).filter(|state| simulation.can_start_from(state));
-    let start = |&at: &usize| Start { replica: replicas[at], from: from(&keys[at]) };
+    let from = |at: usize| {
+        let state = journal.snapshot(&keys[at]).filter(|state| simulation.can_start_from(state));
+        state.filter(|state| trajectories.reach(at, state))
+    };
+    let start = |&at: &usize| Start { replica: replicas[at], from: from(at) };
     let starts: Vec<Start> = left.iter().map(start).collect();
     journal.tell_taken();
     let steps = (sweep.steps(), steps_done(sweep, &starts));
     let ran = stages.resumed("sweep", steps, |progress| {
-        let keys = left.iter().map(|&at| keys[at]).collect();
-        simulation.run_observed(starts, &Following::new(journal, keys, progress))
+        let replicas = left.iter().map(|&at| (at, keys[at])).collect();
+        let following = Following::new(journal, replicas, &trajectories, progress);
+        simulation.run_observed(starts, &following)
     });
     for (at, run) in left.into_iter().zip(ran?) {
         outcomes[at] = Some(run.outcome);
@@ -47,6 +54,24 @@ pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
         outcome: outcome.expect("every replica was taken over or has run"),
     };
     Ok(replicas.into_iter().zip(outcomes).map(run).collect())
+}
+
+/// The replicas of a sweep whose states on the way were asked for, with these.
+pub fn recorded(work: &Work<'_>, sweep: &Sweep) -> Vec<(Replica, Trajectory)> {
+    let replicas = work.plan.recorded.as_ref().map_or(&[][..], |recorded| &recorded.replicas);
+    let keys = keys(work, sweep, replicas);
+    let of = |(&replica, key)| Some((replica, trajectory(work, sweep, replica, key)?));
+    replicas.iter().zip(&keys).filter_map(of).collect()
+}
+
+/// What replicas of a sweep are known by.
+fn keys(work: &Work<'_>, sweep: &Sweep, replicas: &[Replica]) -> Vec<Key> {
+    let Work { plan, journal, .. } = work;
+    let shared = (work.matrix(), &plan.node, sweep.method, sweep.schedule);
+    let shared = journal.key(Kind::Replica, &(shared, &sweep.observables, sweep.kick));
+    let key =
+        |replica: &Replica| journal.key(Kind::Replica, &(shared.0, replica.epsilon, replica.seed));
+    replicas.iter().map(key).collect()
 }
 
 /// What the step of the integrator does at some couplings of a sweep, all of it one piece of work.
@@ -88,7 +113,9 @@ fn steps_done(sweep: &Sweep, starts: &[Start]) -> u64 {
 /// Keeps what replicas leave, when they end and on the way.
 struct Following<'a> {
     journal: &'a Journal,
-    keys: Vec<Key>,
+    /// Their places in the sweep, and what they are known by.
+    replicas: Vec<(usize, Key)>,
+    trajectories: &'a Trajectories<'a>,
     progress: Progress<'a>,
     started: Instant,
     /// Of each replica, what is known of the batch of which it is the first.
@@ -109,9 +136,14 @@ const LEFT: u64 = u64::MAX;
 const BETWEEN_LOOKS: u64 = 16;
 
 impl<'a> Following<'a> {
-    fn new(journal: &'a Journal, keys: Vec<Key>, progress: Progress<'a>) -> Self {
-        let batches = keys.iter().map(|_| Batch::default()).collect();
-        Self { journal, keys, progress, started: Instant::now(), batches }
+    fn new(
+        journal: &'a Journal,
+        replicas: Vec<(usize, Key)>,
+        trajectories: &'a Trajectories<'a>,
+        progress: Progress<'a>,
+    ) -> Self {
+        let batches = replicas.iter().map(|_| Batch::default()).collect();
+        Self { journal, replicas, trajectories, progress, started: Instant::now(), batches }
     }
 
     fn milliseconds(&self) -> u64 {
@@ -144,12 +176,20 @@ impl Observer for Following<'_> {
     }
 
     fn finished(&self, replica: usize, outcome: &Outcome) {
-        self.journal.keep(Kind::Replica, &self.keys[replica], outcome);
-        self.journal.drop_snapshot(&self.keys[replica]);
+        let (at, key) = &self.replicas[replica];
+        self.trajectories.finish(*at);
+        self.journal.keep(Kind::Replica, key, outcome);
+        self.journal.drop_snapshot(key);
+    }
+
+    fn recorded(&self, replica: usize, record: &Record<'_>) {
+        self.trajectories.add(self.replicas[replica].0, record);
     }
 
     fn snapshot(&self, replica: usize, snapshot: Snapshot) {
-        self.journal.keep_snapshot(&self.keys[replica], &snapshot);
+        let (at, key) = &self.replicas[replica];
+        self.trajectories.write(*at);
+        self.journal.keep_snapshot(key, &snapshot);
     }
 }
 
@@ -163,8 +203,9 @@ mod tests {
     fn a_batch_leaves_its_states_once_it_has_run_for_a_minute() {
         let folder = tempfile::tempdir().unwrap();
         let journal = Journal::open(folder.path(), "tiny", "program", false, Arc::new(())).unwrap();
-        let keys = (0..3).map(|k| journal.key(Kind::Replica, &k)).collect();
-        let mut following = Following::new(&journal, keys, dynamics::QUIET);
+        let keys = (0..3).map(|k| (k, journal.key(Kind::Replica, &k))).collect();
+        let none = Trajectories::none(3);
+        let mut following = Following::new(&journal, keys, &none, dynamics::QUIET);
         let snapshots = |following: &Following<'_>, batch: &[usize]| {
             let samples = 0..10 * BETWEEN_LOOKS;
             samples.filter(|_| following.advanced(batch, 10) == Next::Snapshot).count()

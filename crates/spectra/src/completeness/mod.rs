@@ -93,15 +93,8 @@ impl Verifier<'_> {
     ) -> Result<Outcome, SpectraError> {
         let limit = claim.wanted.limit(claim.last, self.grouping);
         let affordable = claim.products_left.min(FREE_PROBING.max(claim.products_spent));
-<<<<<<< HEAD
-        let (products, n_modes) = (claim.products_spent, claim.n_modes);
-        let advance = Advance { products, converged: n_modes, wanted: n_modes };
-        let asked = advance.asked(self.progress);
-        let send = |guards: &Guards, max_products: usize, random: &mut Random| {
-=======
         let n_modes = claim.n_modes;
         let send = |guards: &Guards, spent: usize, random: &mut Random| {
->>>>>>> part-S
             let probe = Probe {
                 low: self.low,
                 expected: guards.next.max(self.low),
@@ -110,12 +103,9 @@ impl Verifier<'_> {
                 max_products: affordable.saturating_sub(spent),
                 probes,
             };
-<<<<<<< HEAD
-=======
             let products = claim.products_spent + spent;
             let advance = Advance { products, converged: n_modes, wanted: n_modes };
             let asked = advance.asked(self.progress);
->>>>>>> part-S
             probe.send(self.links, (basis, n_modes + guards.count), random, &asked)
         };
         let is_missing = |theta| theta > claim.wanted.missing_from(claim.last, self.grouping);

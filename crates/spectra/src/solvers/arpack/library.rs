@@ -139,7 +139,6 @@ impl Lanczos {
                 -1 => self.workd.copy_within(column(from, self.n), to as usize - 1),
                 1 if self.products == settings.max_products => return Ok(Outcome::Exhausted(0)),
                 1 => {
-                    asked(self.products)?;
                     self.products += 1;
                     asked(self.products)?;
                     x.copy_from_slice(&self.workd[column(from, self.n)]);

@@ -1,0 +1,165 @@
+//! States of nodes on the way: of which nodes, at which couplings, and how many numbers that makes.
+
+use std::collections::HashSet;
+
+use dynamics::{Model, NodeDynamics, Replica, Schedule, Series};
+use eigensync::Sweep;
+use eigensync::numbers::plain;
+use graph::{Names, Network};
+use user::Result;
+
+use super::Checker;
+use crate::spec::SeriesSpec;
+
+/// The most numbers that are written, 8 bytes each and some twenty more as text.
+const MOST_NUMBERS: f64 = 2e9;
+
+/// Of which replicas states are written, and what the numbers of one are.
+#[derive(Clone, Debug)]
+pub struct Recorded {
+    /// The replicas, in their order.
+    pub replicas: Vec<Replica>,
+    /// Names of the numbers of a state: `x_LABEL`.
+    pub columns: Vec<String>,
+    /// States of one replica that comes to its end.
+    pub n_states: u64,
+}
+
+impl Recorded {
+    /// Numbers of all replicas together, times among them.
+    pub fn n_numbers(&self) -> f64 {
+        let of_one = self.n_states as f64 * (1.0 + self.columns.len() as f64);
+        self.replicas.len() as f64 * of_one
+    }
+}
+
+impl Checker<'_> {
+    /// What the simulation is asked for.
+    pub(super) fn series(
+        &self,
+        spec: &SeriesSpec,
+        network: &Network,
+        model: Model,
+    ) -> Result<Series> {
+        let key = "sweep.series.nodes";
+        let names = Names::of(network);
+        let mut nodes = Vec::new();
+        for name in &spec.nodes {
+            let named = names.nodes(name.as_ref());
+            nodes.extend(named.map_err(|error| self.misnamed(key, &error))?);
+        }
+        if nodes.is_empty() {
+            return Err(self.problem(key, "is empty, but needs a node"));
+        }
+        let mut seen = HashSet::new();
+        if let Some(&twice) = nodes.iter().find(|&&node| !seen.insert(node)) {
+            let label = &network.labels()[twice];
+            return Err(self.problem(key, format!("has node \"{label}\" twice")));
+        }
+        let components = spec.components.as_ref().map(|components| {
+            let key = "sweep.series.components";
+            components.iter().map(|name| self.component(key, name, model)).collect()
+        });
+        self.positive("sweep.series.every", spec.every as f64)?;
+        self.positive("sweep.series.seeds", spec.seeds as f64)?;
+        let time = |key: &str, time: Option<f64>| {
+            time.map(|time| self.not_negative(key, time).map(|()| time / self.shortened))
+                .transpose()
+        };
+        Ok(Series {
+            nodes,
+            components: components.transpose()?,
+            every: spec.every,
+            from: time("sweep.series.from", spec.from)?,
+            to: time("sweep.series.to", spec.to)?,
+        })
+    }
+
+    /// Of which replicas of the sweep states are written.
+    pub(super) fn recorded(
+        &self,
+        sweep: &Sweep,
+        network: &Network,
+        model: Model,
+    ) -> Result<Option<Recorded>> {
+        let spec = self.experiment.sweep.as_ref().and_then(|sweep| sweep.series.as_ref());
+        let (Some(spec), Some(series)) = (spec, &sweep.series) else { return Ok(None) };
+        let epsilon = self.recorded_epsilon(spec, sweep)?;
+        let seeds = usize::try_from(spec.seeds).unwrap_or(usize::MAX);
+        if seeds > sweep.seeds.len() {
+            let message = format!("is {seeds}, but the sweep has {} seeds", sweep.seeds.len());
+            return Err(self.problem("sweep.series.seeds", message));
+        }
+        let of = |&epsilon: &f64| {
+            sweep.seeds[..seeds].iter().map(move |&seed| Replica { epsilon, seed })
+        };
+        let n_states = series.n_records(&sweep.schedule);
+        if n_states == 0 {
+            return Err(self.no_states(&sweep.schedule));
+        }
+        let recorded = Recorded {
+            replicas: epsilon.iter().flat_map(of).collect(),
+            columns: columns(series, network, model),
+            n_states,
+        };
+        if recorded.n_numbers() > MOST_NUMBERS {
+            let message = format!(
+                "asks for {} numbers: {} replicas of {n_states} states of {} numbers; the most is {}",
+                plain(recorded.n_numbers()),
+                recorded.replicas.len(),
+                recorded.columns.len() + 1,
+                plain(MOST_NUMBERS)
+            );
+            let hint = "take fewer `nodes`, `components`, points of `epsilon`, or every tenth state: \
+                        `every = 10`";
+            return Err(self.problem("sweep.series", message).hint(hint));
+        }
+        Ok(Some(recorded))
+    }
+
+    fn no_states(&self, schedule: &Schedule) -> user::Problem {
+        let end = plain(schedule.transient + schedule.average);
+        let message =
+            format!("asks for no state: `from` is after `to`, or after the end of a run at {end}");
+        self.problem("sweep.series", message)
+            .hint("leave out `from` and `to` for all averaged states")
+    }
+
+    fn recorded_epsilon(&self, spec: &SeriesSpec, sweep: &Sweep) -> Result<Vec<f64>> {
+        let key = "sweep.series.epsilon";
+        let Some(asked) = &spec.epsilon else { return Ok(sweep.epsilon.clone()) };
+        if asked.is_empty() {
+            return Err(self.problem(key, "is empty").hint("leave it out for all points"));
+        }
+        if let Some(epsilon) = asked.iter().find(|epsilon| !sweep.epsilon.contains(epsilon)) {
+            return Err(self.no_point(key, *epsilon, &sweep.epsilon));
+        }
+        let is_asked = |epsilon: &&f64| asked.contains(epsilon);
+        Ok(sweep.epsilon.iter().filter(is_asked).copied().collect())
+    }
+
+    fn no_point(&self, key: &str, epsilon: f64, points: &[f64]) -> user::Problem {
+        let distance = |value: &f64| (value - epsilon).abs();
+        let nearest = points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let message = format!("has {}, which is not a point of `sweep.epsilon`", plain(epsilon));
+        let problem = self.problem(key, message);
+        match nearest {
+            Some(&nearest) => problem.hint(format!("the nearest point is {}", plain(nearest))),
+            None => problem,
+        }
+    }
+}
+
+/// Names of the numbers of a state: node by node, component by component.
+fn columns(series: &Series, network: &Network, model: Model) -> Vec<String> {
+    let all = model.components();
+    let components = match &series.components {
+        Some(components) => components.iter().map(|&component| all[component]).collect(),
+        None => all.to_vec(),
+    };
+    let of = |&node: &usize| {
+        let label = &network.labels()[node];
+        components.iter().map(move |component| format!("{component}_{label}"))
+    };
+    series.nodes.iter().flat_map(of).collect()
+}
