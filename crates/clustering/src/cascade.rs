@@ -12,6 +12,7 @@ use crate::coincidences::Coincidences;
 use crate::exact::ExactClusters;
 use crate::linkage::clusters_of_each;
 use crate::modes::{check_finite, check_shapes, check_synchronous_mode, chosen_eigenspaces};
+use crate::progress::{Progress, go_on};
 use crate::{ClusteringError, Partition};
 
 /// What makes a cluster.
@@ -73,12 +74,13 @@ impl State {
 /// The predicted state of every stretch, from the largest couplings down.
 ///
 /// Neighbours differ in their unstable modes, though not always in their clusters (see
-/// [`merge_equal_clusters`]). Reports every state whose clusters it has found.
+/// [`merge_equal_clusters`]). Reports every state whose clusters it has found, and stops where it is told to.
 ///
 /// # Errors
 /// [`ClusteringError::NoSynchronousMode`], [`ClusteringError::NotFinite`] (of any mode),
 /// [`ClusteringError::SpectrumTooRough`], [`ClusteringError::BadThreshold`], and those of unstable modes
-/// that are not whole eigenspaces of the spectrum, as [`crate::EigenvectorDistance`] has them.
+/// that are not whole eigenspaces of the spectrum, as [`crate::EigenvectorDistance`] has them;
+/// [`ClusteringError::Cancelled`].
 ///
 /// # Panics
 /// If the stretches do not follow one another from the largest ε down.
@@ -86,7 +88,7 @@ pub fn cascade(
     spectrum: &Spectrum,
     stretches: Vec<Stretch>,
     rule: ClusterRule,
-    progress: &dyn Fn(u64),
+    progress: Progress<'_>,
 ) -> Result<Vec<State>, ClusteringError> {
     let spectrum = &spectrum.real_modes();
     check_shapes(spectrum);
@@ -157,12 +159,12 @@ struct Clusters {
 fn exact_clusters(
     spectrum: &RealModes<'_>,
     sets: &[&[usize]],
-    progress: &dyn Fn(u64),
+    progress: Progress<'_>,
 ) -> Result<Vec<Clusters>, ClusteringError> {
     let mut exact = ExactClusters::new(spectrum);
     let of = |modes: &&[usize]| {
         let together = exact.of(modes)?;
-        progress(1);
+        go_on(progress(1))?;
         Ok(Clusters { alike: Arc::clone(&together), together })
     };
     sets.iter().map(of).collect()
@@ -173,7 +175,7 @@ fn near_clusters(
     spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     threshold: f64,
-    progress: &dyn Fn(u64),
+    progress: Progress<'_>,
 ) -> Result<Vec<Clusters>, ClusteringError> {
     let n_nodes = spectrum.eigenvectors[0].len();
     let near = clusters_of_each(spectrum, sets, threshold, progress)?;

@@ -7,6 +7,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ClusteringError {
+    /// Whoever was told of the progress wanted to stop.
+    #[error("the work was stopped")]
+    Cancelled,
     /// A mode beyond those computed.
     #[error("mode {} is not among the {n_modes} that were computed", mode + 1)]
     ModeOutOfRange {

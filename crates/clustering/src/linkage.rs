@@ -21,6 +21,7 @@ use spectra::RealModes;
 use crate::disjoint_sets::DisjointSetFamilies;
 use crate::metric::Block;
 use crate::modes::{check_threshold, chosen_eigenspaces, transverse};
+use crate::progress::{Progress, go_on};
 use crate::{ClusteringError, EigenvectorDistance, Partition, mean_over_bases};
 
 /// Nodes side by side in one panel.
@@ -42,7 +43,7 @@ pub(crate) fn clusters_of_each(
     spectrum: &RealModes<'_>,
     sets: &[&[usize]],
     threshold: f64,
-    progress: &dyn Fn(u64),
+    progress: Progress<'_>,
 ) -> Result<Vec<Partition>, ClusteringError> {
     check_threshold(threshold)?;
     let n_nodes = spectrum.eigenvectors[0].len();
@@ -53,12 +54,12 @@ pub(crate) fn clusters_of_each(
         let distance = EigenvectorDistance::of(spectrum, modes)?;
         let Some(clusters) = distance.clusters_with_work(threshold, &mut work)? else { break };
         found.push(clusters);
-        progress(1);
+        go_on(progress(1))?;
     }
     let rest = &sets[found.len()..];
     if !rest.is_empty() {
         found.extend(in_one_pass(spectrum, rest, threshold)?);
-        progress(rest.len() as u64);
+        go_on(progress(rest.len() as u64))?;
     }
     Ok(found)
 }
@@ -344,7 +345,7 @@ mod tests {
             let sets: Vec<&[usize]> = sets.iter().map(|modes| &modes[..]).collect();
             let expected = one_by_one(&spectrum, &sets, threshold);
             prop_assert_eq!(&in_one_pass(&spectrum.real_modes(), &sets, threshold).unwrap(), &expected);
-            prop_assert_eq!(&clusters_of_each(&spectrum.real_modes(), &sets, threshold, &|_| {}).unwrap(), &expected);
+            prop_assert_eq!(&clusters_of_each(&spectrum.real_modes(), &sets, threshold, crate::QUIET).unwrap(), &expected);
         }
 
         // Components in tenths round in every sum, and distances often equal the threshold but

@@ -122,14 +122,12 @@ pub fn find_by<C: Compute>(
     let Stability { transitions, stretches, .. } = stability;
     let states = compute
         .stage("clusters", Some(stretches.len() as u64), |progress| {
-            let mut states = prediction::states(&spectrum, stretches, study.rule, &|n| {
-                let _ = progress(n);
-            })?;
+            let mut states = prediction::states(&spectrum, stretches, study.rule, &progress)?;
             let matrix = study.matrix.matrix().view();
             hold_against_links(&mut states, &spectrum, matrix, study.rule, EQUITABLE)?;
             Ok(states)
         })
-        .map_err(Error::Cascade)?;
+        .map_err(|error| not_clustered(error, Error::Cascade))?;
     let mut simulated = None;
     let (mut step_effects, mut agreement) = (Vec::new(), Vec::new());
     if let Some(sweep) = &study.sweep {
@@ -149,7 +147,7 @@ pub fn find_by<C: Compute>(
         .stage("labels", Some(cascade.len() as u64), |progress| {
             labels(study, &spectrum, &cascade, &states, progress)
         })
-        .map_err(Error::Labels)?;
+        .map_err(|error| not_clustered(error, Error::Labels))?;
     drop(states);
     let mut trees = CascadeTree::of_each_run(&cascade, LEAST_LISTED);
     trees.iter_mut().for_each(|tree| tree.label(&cascade, &labels));
@@ -249,6 +247,14 @@ fn beyond(study: &Study, computed: usize, top: f64) -> String {
     )
 }
 
+/// What kept clusters from being found.
+fn not_clustered(error: ClusteringError, of: fn(ClusteringError) -> Error) -> Error {
+    match error {
+        ClusteringError::Cancelled => Error::Cancelled,
+        other => of(other),
+    }
+}
+
 /// Which clusters are exact and which approximate, state by state.
 fn labels(
     study: &Study,
@@ -261,8 +267,7 @@ fn labels(
     let of = |state: &State| {
         let stretches = state.stretches(stretches);
         let labels = StateLabels::of(state, stretches, spectrum, matrix, rule, EQUITABLE);
-        let _ = progress(1);
-        labels
+        if progress(1).is_break() { Err(ClusteringError::Cancelled) } else { labels }
     };
     cascade.par_iter().map(of).collect()
 }

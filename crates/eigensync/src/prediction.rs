@@ -35,7 +35,7 @@ pub fn states(
     spectrum: &Spectrum,
     stretches: Vec<msf::Stretch>,
     rule: ClusterRule,
-    progress: &dyn Fn(u64),
+    progress: clustering::Progress<'_>,
 ) -> Result<Vec<State>, ClusteringError> {
     let handed_over = |stretch: msf::Stretch| {
         let msf::Stretch { epsilon, unstable_modes, truncated } = stretch;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use eigensync::dynamics::{Coupling, Native, Rossler};
@@ -88,5 +89,30 @@ fn a_study_stops_within_a_second_in_every_long_stage() {
             since.elapsed()
         );
         assert!(matches!(found, Err(Error::Cancelled)), "{stage}: {:?}", found.err());
+    }
+}
+
+/// Wants to stop as soon as a stage begins.
+struct StopAt {
+    stage: &'static str,
+    has_come: AtomicBool,
+}
+
+impl Observer for StopAt {
+    fn begins(&self, stage: &str, _: Option<u64>) {
+        self.has_come.fetch_or(stage == self.stage, Ordering::Relaxed);
+    }
+
+    fn wants_to_stop(&self) -> bool {
+        self.has_come.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn a_prediction_stops_from_one_state_to_the_next() {
+    for stage in ["clusters", "labels"] {
+        let study = Study { sweep: None, ..endless() };
+        let stopped = find(&study, &StopAt { stage, has_come: AtomicBool::new(false) });
+        assert!(matches!(stopped, Err(Error::Cancelled)), "{stage}");
     }
 }

@@ -271,7 +271,7 @@ fn about_one(
         truncated: false,
     };
     let stretches = vec![stretch((1.0, None), above), stretch((0.0, Some(to)), below)];
-    clustering::cascade(&nepal(), stretches, rule, &|_| {})
+    clustering::cascade(&nepal(), stretches, rule, clustering::QUIET)
 }
 
 #[test]
@@ -296,7 +296,10 @@ fn stretches_with_a_gap_are_refused() {
 
 #[test]
 fn no_stretch_has_no_state() {
-    assert_eq!(clustering::cascade(&nepal(), vec![], ClusterRule::Exact, &|_| {}), Ok(vec![]));
+    assert_eq!(
+        clustering::cascade(&nepal(), vec![], ClusterRule::Exact, clustering::QUIET),
+        Ok(vec![])
+    );
 }
 
 #[test]

@@ -10,7 +10,7 @@ pub fn cascade(
     stable: &StableRegion,
     rule: ClusterRule,
 ) -> Result<Vec<State>, ClusteringError> {
-    clustering::cascade(spectrum, stretches(spectrum, stable), rule, &|_| {})
+    clustering::cascade(spectrum, stretches(spectrum, stable), rule, clustering::QUIET)
 }
 
 fn stretches(spectrum: &Spectrum, stable: &StableRegion) -> Vec<Stretch> {
