@@ -7,7 +7,7 @@ use crate::kernel::Network;
 use crate::kicks::Kicks;
 use crate::links::Links;
 use crate::observables::ErrorSums;
-use crate::series::Recorder;
+use crate::recorder::Recorder;
 use crate::tile::TILE;
 use crate::{Next, Observer, Outcome, Simulation, Snapshot, Start};
 

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::whole;
-use crate::{DynamicsError, Observer, Schedule};
+use crate::{DynamicsError, Schedule};
 
 /// Which states a simulation hands out to its [`Observer`]. Times are model time, rounded to the
 /// nearest sample.
@@ -84,7 +84,7 @@ impl Series {
         Ok(())
     }
 
-    fn samples(&self, schedule: &Schedule) -> Samples {
+    pub(crate) fn samples(&self, schedule: &Schedule) -> Samples {
         let sample = |time: f64| whole(time / schedule.sampling_interval());
         let end = schedule.transient_samples() + schedule.samples();
         Samples {
@@ -97,64 +97,14 @@ impl Series {
 
 /// The samples of a series: every so many, from the first to the last at the most.
 #[derive(Clone, Copy)]
-struct Samples {
-    first: u64,
+pub(crate) struct Samples {
+    pub(crate) first: u64,
     last: u64,
-    every: u64,
-}
-
-/// Hands out the records of some replicas, if anybody wants them.
-pub(crate) struct Recorder {
-    wanted: Option<Wanted>,
-}
-
-/// What is wanted of every replica, with room for one record.
-struct Wanted {
-    samples: Samples,
-    /// Component and node of each number of a record.
-    places: Vec<(usize, usize)>,
-    states: Vec<f64>,
-}
-
-impl Recorder {
-    pub(crate) fn new(series: Option<&Series>, schedule: &Schedule, n_components: usize) -> Self {
-        let wanted = |series: &Series| {
-            let components =
-                series.components.clone().unwrap_or_else(|| (0..n_components).collect());
-            let of = |&node: &usize| components.iter().map(move |&component| (component, node));
-            let places: Vec<_> = series.nodes.iter().flat_map(of).collect();
-            Wanted {
-                samples: series.samples(schedule),
-                states: Vec::with_capacity(places.len()),
-                places,
-            }
-        };
-        Self { wanted: series.map(wanted) }
-    }
-
-    /// Whether a record is wanted of a sample.
-    #[inline(always)]
-    pub(crate) fn due(&self, sample: u64) -> bool {
-        self.wanted.as_ref().is_some_and(|wanted| wanted.samples.contains(sample))
-    }
-
-    /// Tells of one replica at a sample that is due, its state given by component and node.
-    pub(crate) fn tell(
-        &mut self,
-        (replica, observer): (usize, &dyn Observer),
-        (sample, time): (u64, f64),
-        state: impl Fn(usize, usize) -> f64,
-    ) {
-        let Some(Wanted { samples, places, states }) = &mut self.wanted else { return };
-        states.clear();
-        states.extend(places.iter().map(|&(component, node)| state(component, node)));
-        let number = (sample - samples.first) / samples.every;
-        observer.recorded(replica, &Record { number, sample, time, states });
-    }
+    pub(crate) every: u64,
 }
 
 impl Samples {
-    fn contains(self, sample: u64) -> bool {
+    pub(crate) fn contains(self, sample: u64) -> bool {
         (self.first..=self.last).contains(&sample)
             && (sample - self.first).is_multiple_of(self.every)
     }
@@ -163,6 +113,7 @@ impl Samples {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recorder::Recorder;
 
     /// Samples at 0.5, 1, …: 20 of transient, 40 of average.
     const SCHEDULE: Schedule = Schedule { step: 0.1, transient: 10.0, average: 20.0, stride: 5 };

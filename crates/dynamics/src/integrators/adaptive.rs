@@ -13,7 +13,7 @@ use crate::batches::Numbered;
 use crate::kicks::Kicks;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
-use crate::series::Recorder;
+use crate::recorder::Recorder;
 use crate::tile::{slices, slices_mut};
 use crate::{ESCAPE_RADIUS, Next, Observer, Outcome, Simulation, Snapshot, Start};
 
