@@ -18,7 +18,7 @@ use super::canvas::{Anchor, Canvas, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
-use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, Stroke, TICK_SIZE, UNCLUSTERED};
+use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, MARKER_INK, Stroke, TICK_SIZE, UNCLUSTERED};
 use columns::{Column, Columns};
 
 /// Bands thinner than this, 0.35 mm, are drawn as one block.
@@ -34,6 +34,8 @@ const NODE_SPACING: f64 = 16.0;
 const COUNT_ROW: f64 = 10.0;
 /// Room at the right, half a number.
 const RIGHT: f64 = 8.0;
+/// Room beyond the end of a prediction, for words read upwards.
+const BEYOND: f64 = 14.0;
 
 /// The predicted clusters at every coupling strength, from strong coupling down.
 #[derive(Clone, Debug)]
@@ -50,7 +52,7 @@ pub struct CascadePanel {
 #[derive(Clone, Debug)]
 pub struct CascadeState {
     /// Open range of ε, from its lower end; the first may have no upper end, the last may reach
-    /// down to 0.
+    /// down to 0. Where the last ends above 0 the prediction does, and clusters may go on or not.
     pub epsilon: (f64, Option<f64>),
     /// Clusters of two nodes or more; all other nodes are alone.
     pub clusters: Vec<CascadeCluster>,
@@ -99,6 +101,9 @@ impl CascadePanel {
         bands::draw(canvas, self, &strands, &columns);
         self.draw_counts(canvas, &columns);
         self.draw_nodes(canvas, cell, frame);
+        if self.ends_above_zero() {
+            draw_end(canvas, frame);
+        }
         ruler::draw(canvas, &self.states, &columns, cell);
         Ok(())
     }
@@ -111,9 +116,14 @@ impl CascadePanel {
         Rect {
             left: cell.left + left,
             top: cell.top + self.count_rows().len() as f64 * COUNT_ROW + 4.5,
-            right: cell.right - RIGHT,
+            right: cell.right - RIGHT - if self.ends_above_zero() { BEYOND } else { 0.0 },
             bottom: cell.bottom - ruler::BELOW,
         }
+    }
+
+    /// Whether nothing is predicted below some ε. No cluster is known to change there.
+    fn ends_above_zero(&self) -> bool {
+        self.states.last().is_some_and(|state| state.epsilon.0 > 0.0)
     }
 
     /// Whether any node is alone in any state.
@@ -185,6 +195,18 @@ impl CascadePanel {
         let at = [cell.left + 1.1 * LABEL_SIZE, (frame.top + frame.bottom) / 2.0];
         canvas.label_upwards(&Label::text("nodes"), at, LABEL_SIZE);
     }
+}
+
+/// The end of the prediction, unlike a transition: a dashed line, and beyond it words alone.
+fn draw_end(canvas: &mut Canvas, frame: Rect) {
+    let dashed = Stroke { dash: "3 2", ..Stroke::solid(MARKER_INK, AXIS_WIDTH) };
+    let x = frame.right + AXIS_WIDTH;
+    canvas.line([x, frame.top], [x, frame.bottom + AXIS_GAP], dashed);
+    let at = [
+        frame.right + BEYOND / 2.0 + CAP_HEIGHT * TICK_SIZE / 2.0 + 1.0,
+        frame.top + frame.height() / 2.0,
+    ];
+    canvas.label_upwards(&Label::text("not predicted"), at, TICK_SIZE);
 }
 
 /// A number for each state and the word for what it counts.

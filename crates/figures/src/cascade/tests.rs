@@ -295,6 +295,33 @@ fn a_single_state_and_a_single_node_can_be_drawn() {
 }
 
 #[test]
+fn the_end_of_a_prediction_is_drawn_unlike_a_transition() {
+    let marks = |svg: &str| {
+        let path = svg.split("<path").find(|path| path.contains(MARKER_INK)).unwrap_or_default();
+        path.split("d=\"").nth(1).unwrap_or_default().matches('M').count()
+    };
+    let ends = small();
+    let text = svg(&ends);
+    let found = texts(&text);
+    assert!(found.contains(&"not predicted".to_string()) && found.contains(&"9.2".to_string()));
+    assert_eq!((marks(&text), text.matches("stroke-dasharray").count()), (2, 1));
+    let mut goes_on = ends;
+    goes_on.states[2].epsilon.0 = 0.0;
+    let text = svg(&goes_on);
+    assert!(!texts(&text).contains(&"not predicted".to_string()));
+    assert_eq!((marks(&text), text.matches("stroke-dasharray").count()), (2, 0));
+}
+
+#[test]
+fn the_axis_of_a_single_state_says_where_it_holds() {
+    let alone = |end| panel(6, &[end], vec![vec![cluster(6, None, "")]]);
+    let found = texts(&svg(&alone(0.0)));
+    assert!(found.iter().any(|text| text.starts_with("every")), "{found:?}");
+    let found = texts(&svg(&alone(0.8)));
+    assert!(found.contains(&"0.8".to_string()) && !found.iter().any(|t| t.starts_with("every")));
+}
+
+#[test]
 fn any_coupling_that_is_a_number_can_be_drawn() {
     let ends = [1e308, 1.0, 1e-300, 5e-324, 0.0];
     for n in 1..=ends.len() {
