@@ -200,7 +200,7 @@ impl CascadePanel {
 /// The end of the prediction, unlike a transition: a dashed line, and beyond it words alone.
 fn draw_end(canvas: &mut Canvas, frame: Rect) {
     let dashed = Stroke { dash: "3 2", ..Stroke::solid(MARKER_INK, AXIS_WIDTH) };
-    let x = frame.right + AXIS_WIDTH;
+    let x = frame.right + AXIS_GAP / 2.0;
     canvas.line([x, frame.top], [x, frame.bottom + AXIS_GAP], dashed);
     let at = [
         frame.right + BEYOND / 2.0 + CAP_HEIGHT * TICK_SIZE / 2.0 + 1.0,

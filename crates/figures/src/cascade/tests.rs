@@ -193,7 +193,9 @@ fn a_state_with_merged_clusters_is_laid_out_anew_by_size() {
     assert_eq!(extents(&strands, 3, 2), [[45, 65], [0, 45]]);
     let kept = strands.iter().find(|s| s.at(3).is_some_and(|at| at.from == 45)).unwrap();
     assert!(kept.first < 3, "a cluster that goes on lost its colour");
-    assert!(texts(&svg(&panel)).contains(&"merged".to_string()));
+    let found = texts(&svg(&panel));
+    assert!(found.contains(&"merged".to_string()));
+    assert_eq!(found.iter().filter(|text| *text == "b").count(), 2, "a band that moved: {found:?}");
 }
 
 #[test]
