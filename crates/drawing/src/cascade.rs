@@ -4,22 +4,26 @@ use clustering::Partition;
 use eigensync::Findings;
 
 use crate::identity::{Identities, Identity};
+use crate::stretches::{Stretch, stretches};
 use experiment::Plan;
 use figures::{CascadeCluster, CascadePanel, CascadeState};
 
 /// The states of a prediction, from strong coupling down.
 pub fn panel(plan: &Plan, findings: &Findings, identities: &Identities) -> CascadePanel {
-    let states = &findings.cascade;
-    let before = std::iter::once(None).chain(states.iter().map(|state| Some(&*state.clusters)));
-    let states = states.iter().zip(before).zip(&identities.of_state);
-    let state = |((state, before), identities): ((&clustering::State, _), &Vec<_>)| CascadeState {
-        epsilon: state.epsilon,
-        clusters: clusters(&state.clusters, before, identities),
+    let seen = stretches(&findings.cascade);
+    let firsts: Vec<usize> = seen.iter().map(|stretch| stretch.states.start).collect();
+    let clusters_of = |first: usize| &*findings.cascade[first].clusters;
+    let before = std::iter::once(None).chain(firsts.iter().map(|&first| Some(clusters_of(first))));
+    let state = |((stretch, &first), before): ((&Stretch, &usize), _)| CascadeState {
+        epsilon: stretch.epsilon,
+        clusters: clusters(clusters_of(first), before, &identities.of_state[first]),
     };
     CascadePanel {
         n_nodes: plan.study.network.n_nodes(),
-        states: states.map(state).collect(),
-        shown: identities.shown,
+        states: seen.iter().zip(&firsts).zip(before).map(state).collect(),
+        shown: identities
+            .shown
+            .and_then(|shown| seen.iter().position(|stretch| stretch.states.contains(&shown))),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Λ(σ), as a panel and as a figure of its own.
 
 use eigensync::numbers::three_digits;
-use figures::{Content, Figure, LinePanel, MsfCurve, Panel, msf_panel};
+use figures::{Content, Figure, FigureError, LinePanel, MsfCurve, Panel, msf_panel, pdf, png};
 use msf::MasterStability;
 
 /// Resolution of the PNG: what journals ask for.
@@ -11,7 +11,7 @@ pub const DOTS_PER_INCH: f64 = 300.0;
 pub fn curve_alone(
     title: &str,
     msf: &MasterStability,
-) -> Vec<(&'static str, std::result::Result<Vec<u8>, String>)> {
+) -> Vec<(&'static str, Result<Vec<u8>, String>)> {
     let content = Content::Lines(panel(msf));
     let panel = Panel { letter: String::new(), rows: 0..1, columns: 0..1, content };
     let figure = Figure {
@@ -23,10 +23,15 @@ pub fn curve_alone(
         panels: vec![panel],
     };
     let svg = figure.drawn().map(|drawn| drawn.svg).map_err(|error| error.to_string());
-    let png = svg
-        .clone()
-        .and_then(|svg| figures::png(&svg, DOTS_PER_INCH).map_err(|error| error.to_string()));
-    vec![("figure.svg", svg.map(String::into_bytes)), ("figure.png", png)]
+    let from_svg = |make: &dyn Fn(&str) -> Result<Vec<u8>, FigureError>| {
+        svg.clone().and_then(|svg| make(&svg).map_err(|error| error.to_string()))
+    };
+    let (png, pdf) = (from_svg(&|svg| png(svg, DOTS_PER_INCH)), from_svg(&pdf));
+    vec![
+        ("figure.svg", svg.clone().map(String::into_bytes)),
+        ("figure.png", png),
+        ("figure.pdf", pdf),
+    ]
 }
 
 /// Λ(σ) with its stable set and its zeros.

@@ -4,17 +4,18 @@
 //! as ε falls or is joined by others; what is left over begins anew. So the largest part of a cluster
 //! that splits keeps its colour, and a cluster that comes back after nodes were alone has its old one.
 //! The clusters of the state that the network is coloured by have the first colours, then the largest.
-//! A cluster is named after the group that it is, else by its number in `cascade.csv`, that of the
-//! first row with these nodes.
+//! Above all the same nodes are the same cluster. One is named after the group that it is, else by its
+//! number in `cascade.csv`, that of the first row with these nodes.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use clustering::State;
 use eigensync::Findings;
 use figures::Label;
 use graph::Network;
 
+use crate::stretches::{Stretch, stretches};
 use experiment::Plan;
 
 /// What a cluster looks like and is called.
@@ -33,6 +34,10 @@ pub struct Identities {
     pub shown: Option<usize>,
 }
 
+/// Least width of a state to be shown, of the whole cascade on a logarithmic scale: what a reader sees of
+/// it.
+const LEAST_SHOWN: f64 = 0.05;
+
 /// A cluster as it goes on from state to state.
 type Chain = usize;
 
@@ -48,7 +53,7 @@ impl Identities {
         let clusters: Vec<Vec<Vec<usize>>> =
             states.iter().map(|state| state.clusters.nontrivial()).collect();
         let (chains, n_chains) = chains(plan.study.network.n_nodes(), &clusters);
-        let names = names(plan, findings, &clusters, &chains);
+        let names = names(plan, findings, &clusters);
         let mut first: Vec<(usize, Chain)> = shown.map_or_else(Vec::new, |state| {
             names[state].iter().map(|(number, _)| *number).zip(chains[state].clone()).collect()
         });
@@ -87,24 +92,45 @@ pub fn own_name(network: &Network, m: usize, nodes: &[usize]) -> Label {
     group.map_or(label.clone(), |group| label.with_text(format!(", {}", group.name)))
 }
 
+/// The state with the most clusters beside the one of all nodes, of those that are wide enough to be
+/// seen; the first of equals.
 fn shown(states: &[State]) -> Option<usize> {
     let n_clusters = |state: usize| {
         let sizes = states[state].clusters.sizes();
         if sizes.len() > 1 { sizes.into_iter().filter(|&size| size > 1).count() } else { 0 }
     };
-    let counts = (0..states.len()).map(|state| (n_clusters(state), Reverse(state)));
-    counts.filter(|&(n, _)| n > 0).max().map(|(_, Reverse(state))| state)
+    let seen = stretches(states);
+    // Ends of the whole on a logarithmic scale; states that go on beyond them are wide.
+    let width = |(from, to): (f64, Option<f64>)| match to {
+        Some(to) if from > 0.0 => (to / from).ln(),
+        _ => f64::INFINITY,
+    };
+    let whole: f64 = seen.iter().map(|s| width(s.epsilon)).filter(|w| w.is_finite()).sum();
+    let is_wide = |stretch: &Stretch| width(stretch.epsilon) >= LEAST_SHOWN * whole;
+    let parted = seen.iter().map(|stretch| {
+        let first = stretch.states.start;
+        (n_clusters(first), is_wide(stretch), Reverse(first))
+    });
+    let parted = parted.filter(|&(n, ..)| n > 0);
+    // One too narrow is better than none.
+    let best = parted.max_by_key(|&(n, is_wide, first)| (is_wide, n, first));
+    best.map(|(.., Reverse(first))| first)
 }
 
 /// The chain of every cluster of every state, and how many chains there are.
 fn chains(n_nodes: usize, clusters: &[Vec<Vec<usize>>]) -> (Vec<Vec<Chain>>, usize) {
     // The chain that each node was in last, whether it is alone now or not.
     let mut last: Vec<Option<Chain>> = vec![None; n_nodes];
+    let mut known: HashMap<&[usize], Chain> = HashMap::new();
     let mut n_chains = 0;
     let of_state = clusters.iter().map(|clusters| {
-        let chains = followed(&last, clusters, &mut n_chains);
+        // The same nodes are the same cluster, whatever they were in between.
+        let same: Vec<Option<Chain>> =
+            clusters.iter().map(|nodes| known.get(&nodes[..]).copied()).collect();
+        let chains = followed_from(same, &last, clusters, &mut n_chains);
         for (nodes, &chain) in clusters.iter().zip(&chains) {
             nodes.iter().for_each(|&node| last[node] = Some(chain));
+            known.entry(nodes).or_insert(chain);
         }
         chains
     });
@@ -114,6 +140,18 @@ fn chains(n_nodes: usize, clusters: &[Vec<Vec<usize>>]) -> (Vec<Vec<Chain>>, usi
 /// For each cluster the mark that most of its nodes had before, every mark once, the most nodes in
 /// common first; a new mark, the next number, for those that are left over.
 pub fn followed(before: &[Option<usize>], clusters: &[Vec<usize>], next: &mut usize) -> Vec<usize> {
+    followed_from(vec![None; clusters.len()], before, clusters, next)
+}
+
+/// The same with marks that some clusters have already, the first of those that have the same one.
+fn followed_from(
+    mut marks: Vec<Option<usize>>,
+    before: &[Option<usize>],
+    clusters: &[Vec<usize>],
+    next: &mut usize,
+) -> Vec<usize> {
+    let mut taken = BTreeSet::new();
+    marks.iter_mut().for_each(|mark| *mark = mark.filter(|&mark| taken.insert(mark)));
     let mut common: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (cluster, nodes) in clusters.iter().enumerate() {
         for mark in nodes.iter().filter_map(|&node| before[node]) {
@@ -122,8 +160,6 @@ pub fn followed(before: &[Option<usize>], clusters: &[Vec<usize>], next: &mut us
     }
     let mut common: Vec<_> = common.into_iter().collect();
     common.sort_by_key(|&(_, count)| Reverse(count));
-    let mut marks: Vec<Option<usize>> = vec![None; clusters.len()];
-    let mut taken = std::collections::BTreeSet::new();
     for ((cluster, mark), _) in common {
         if marks[cluster].is_none() && taken.insert(mark) {
             marks[cluster] = Some(mark);
@@ -160,47 +196,52 @@ fn colours(
     colours
 }
 
-/// The number and the name of every cluster of every state. As long as one has the same nodes it is called
-/// the same.
+/// The number and the name of every cluster of every state: those of the first state in which there was one
+/// of the same nodes.
 fn names(
     plan: &Plan,
     findings: &Findings,
     clusters: &[Vec<Vec<usize>>],
-    chains: &[Vec<Chain>],
 ) -> Vec<Vec<(usize, Label)>> {
     let rows = (1..).zip(findings.trees.iter().flat_map(|tree| &tree.clusters));
     let begins = rows.map(|(number, row)| ((row.states.start, row.first_node), number));
     let numbers: HashMap<(usize, usize), usize> = begins.collect();
-    // The nodes of each chain when it was named last, and their number.
-    let mut last: HashMap<Chain, (&[usize], usize)> = HashMap::new();
-    let states = clusters.iter().zip(chains).enumerate().map(|(state, (clusters, chains))| {
-        clusters
-            .iter()
-            .zip(chains)
-            .map(|(nodes, &chain)| {
-                let number = match last.get(&chain) {
-                    Some((same, number)) if *same == &nodes[..] => *number,
-                    _ => numbers.get(&(state, nodes[0])).copied().unwrap_or(0),
-                };
-                last.insert(chain, (nodes, number));
-                (number, name_of(&plan.study.network, number, nodes))
-            })
-            .collect()
-    });
-    states.collect()
+    let mut number_of: HashMap<&[usize], usize> = HashMap::new();
+    let mut names = Vec::with_capacity(clusters.len());
+    for (state, clusters) in clusters.iter().enumerate() {
+        let mut of_state = Vec::with_capacity(clusters.len());
+        for nodes in clusters {
+            let new = || numbers.get(&(state, nodes[0])).copied().unwrap_or(0);
+            let number = *number_of.entry(nodes).or_insert_with(new);
+            of_state.push((number, name_of(&plan.study.network, number, nodes)));
+        }
+        names.push(of_state);
+    }
+    names
 }
 
 /// The name of the group that a cluster is, else its number.
 fn name_of(network: &Network, number: usize, nodes: &[usize]) -> Label {
     match network.groups().iter().find(|group| group.nodes == nodes) {
         Some(group) => Label::text(group.name.as_str()),
-        None => Label::math("C").subscript(&number.to_string()),
+        None => Label::math(letter(network)).subscript(&number.to_string()),
     }
+}
+
+/// C, or K where a group is called C1 or C_1, which would read as a cluster of that number.
+fn letter(network: &Network) -> &'static str {
+    let is_number = |name: &str| {
+        let number =
+            name.strip_prefix(['C', 'c']).map(|rest| rest.trim_start_matches(['_', ' ', '-']));
+        number.is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
+    };
+    if network.groups().iter().any(|group| is_number(&group.name)) { "K" } else { "C" }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stretches::tests::state;
 
     #[test]
     fn the_largest_part_goes_on_and_a_cluster_that_comes_back_is_itself() {
@@ -217,6 +258,34 @@ mod tests {
         assert_eq!((&chains[..4], n_chains), (&expected[..4], 3));
         let colours = colours(&chains, n_chains, &states, &chains[3]);
         assert_eq!(colours, [1, 0, 2], "the state that is shown has the first colours in order");
+    }
+
+    #[test]
+    fn the_same_nodes_are_the_same_cluster_whatever_they_were_in_between() {
+        let parts = || vec![vec![0, 1, 2], vec![3, 4]];
+        let states =
+            vec![parts(), vec![(0..7).collect()], vec![vec![0, 1, 2], vec![3, 4], vec![5, 6]]];
+        let (chains, n_chains) = chains(7, &states);
+        assert_eq!(chains, [vec![0, 1], vec![0], vec![0, 1, 2]]);
+        assert_eq!(n_chains, 3);
+    }
+
+    #[test]
+    fn a_state_too_narrow_to_be_seen_is_shown_only_where_no_other_has_clusters() {
+        let (all, two, three) = ([0; 6], [0, 0, 0, 1, 1, 1], [0, 0, 1, 1, 2, 2]);
+        let mut states = vec![
+            state((3.0, None), &all),
+            state((1.01, Some(3.0)), &two),
+            state((1.0, Some(1.01)), &three),
+            state((0.5, Some(1.0)), &[0, 1, 2, 3, 4, 5]),
+        ];
+        assert_eq!(shown(&states), Some(1));
+        states[1].clusters = states[0].clusters.clone();
+        assert_eq!(shown(&states), Some(2));
+        states[2] = state((0.8, Some(1.01)), &three);
+        states[1] = state((1.01, Some(3.0)), &two);
+        states[3].epsilon.1 = Some(0.8);
+        assert_eq!(shown(&states), Some(2));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //!
 //! `picture` chooses the figure and makes its files: `sweep` for the panels of the paper's Fig. 1,
 //! `pairs` for matrices, `regions` for nodes in space. `identity` gives one cluster one colour and one
-//! number in all panels.
+//! number in all panels, `stretches` says over which ε a predicted one stays.
 
 mod cascade;
 mod curve;
@@ -15,6 +15,7 @@ mod pairs;
 mod picture;
 mod regions;
 mod room;
+mod stretches;
 mod sweep;
 
 pub use curve::curve_alone;

@@ -1,10 +1,10 @@
 //! Vertical lines on a sweep: where the predicted clusters change, and where the source saw that.
 
-use clustering::State;
 use eigensync::Findings;
 use figures::{Label, Marker, MarkerGroup, MarkerStyle};
 use msf::{StableRegion, Transition};
 
+use crate::stretches::{Stretch, stretches};
 use experiment::Plan;
 
 /// Couplings that differ by less, relative to their size, differ by rounding.
@@ -13,9 +13,10 @@ const SAME: f64 = 1e-9;
 /// The predicted transitions within the sweep at which clusters change or those of the modes that are
 /// asked for, by the first mode of each eigenspace.
 pub fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> MarkerGroup {
+    let seen = stretches(&findings.cascade);
     let is_wanted = |transition: &&Transition| match &plan.figure.mark_modes {
         Some(modes) => modes.contains(&(transition.modes.start + 1)),
-        None => changes_clusters(transition.epsilon, &findings.cascade),
+        None => changes_clusters(transition.epsilon, &seen),
     };
     let within = findings.transitions.iter().filter(|t| (first..=last).contains(&t.epsilon));
     let marked = within.filter(is_wanted);
@@ -30,14 +31,11 @@ pub fn critical(plan: &Plan, findings: &Findings, [first, last]: [f64; 2]) -> Ma
     }
 }
 
-/// Whether a coupling is not within the range of one state. States end where clusters change, or no
-/// more is known.
-fn changes_clusters(epsilon: f64, cascade: &[State]) -> bool {
-    let is_within = |state: &State| {
-        let (from, to) = state.epsilon;
-        epsilon > from * (1.0 + SAME) && to.is_none_or(|to| epsilon < to * (1.0 - SAME))
-    };
-    !cascade.iter().any(is_within)
+/// Whether predicted clusters change at a coupling: one stretch of the same ones ends there and another
+/// begins. What ends with nothing known below it does not count.
+fn changes_clusters(epsilon: f64, stretches: &[Stretch]) -> bool {
+    let begins = stretches.iter().skip(1).filter_map(|stretch| stretch.epsilon.1);
+    begins.into_iter().any(|begin| (epsilon - begin).abs() <= SAME * begin)
 }
 
 /// ε_k, and where a mode is stable between two ends, which of them: the smallest or the largest ε at
@@ -63,5 +61,24 @@ pub fn seen_by_the_source(plan: &Plan) -> MarkerGroup {
         style: MarkerStyle::Reference,
         legend: Some(Label::text("paper")),
         markers: transitions.map(|&x| Marker { x, label: None }).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stretches::tests::state;
+
+    #[test]
+    fn only_where_clusters_are_known_to_change_is_a_mark() {
+        let states = [
+            state((3.0, None), &[0, 0, 0]),
+            state((2.0, Some(3.0)), &[0, 0, 1]),
+            state((1.0, Some(2.0)), &[0, 0, 1]),
+            state((0.5, Some(1.0)), &[0, 1, 2]),
+        ];
+        let seen = stretches(&states);
+        let marked = [4.0, 3.0, 2.0, 1.0, 0.5].map(|epsilon| changes_clusters(epsilon, &seen));
+        assert_eq!(marked, [false, true, false, true, false]);
     }
 }

@@ -1,12 +1,12 @@
 //! The network, coloured by clusters, or its eigenvalues where it is too large to be seen.
 
 use eigensync::Findings;
-use eigensync::numbers::three_digits;
 use experiment::Plan;
 use experiment::spec::Layout;
 use figures::{Content, Label, LinePanel, Link, NetworkPanel, Node, Placement, Series};
 
 use crate::identity::{Identities, own_name};
+use crate::stretches::{range, stretches};
 
 /// Up to this many nodes a network is drawn with its links.
 const DRAWN_NODES: usize = 1000;
@@ -47,16 +47,10 @@ pub fn predicted_network(
     clusters.sort_by_key(|(_, identity)| identity.colour);
     let (nodes, names): (Vec<_>, Vec<_>) =
         clusters.into_iter().map(|(nodes, identity)| (nodes, identity.name.clone())).unzip();
-    NetworkPanel { title: range(state.epsilon), ..network(plan, &nodes, names) }
-}
-
-/// A range of ε, as an inequality.
-fn range((from, to): (f64, Option<f64>)) -> Label {
-    let above = |from: f64| Label::math("ε").with_math(&format!(" > {}", three_digits(from)));
-    let between = |from: f64, to: f64| {
-        Label::math(&format!("{} < ε < {}", three_digits(from), three_digits(to)))
-    };
-    to.map_or_else(|| above(from), |to| between(from, to))
+    NetworkPanel {
+        title: range(&stretches(&findings.cascade), shown),
+        ..network(plan, &nodes, names)
+    }
 }
 
 /// λ_k against k.

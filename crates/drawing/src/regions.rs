@@ -3,6 +3,7 @@
 //! one has that of the predicted one with which it shares most nodes.
 
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 use eigensync::{Agreement, Findings, Predicted, Regions, Simulated};
 
@@ -10,6 +11,7 @@ use crate::identity::followed;
 use crate::pairs::{epsilon, shown};
 use experiment::Plan;
 use figures::{Content, Figure, Label, PositionsPanel, pairs_figure};
+use graph::Group;
 
 /// A mark for each node: its cluster, or its colour.
 type Marks = Vec<Option<usize>>;
@@ -17,19 +19,33 @@ type Marks = Vec<Option<usize>>;
 /// Nodes at their places, coloured by predicted clusters above simulated ones.
 pub fn regions(plan: &Plan, findings: &Findings, simulated: &Simulated) -> Figure {
     let positions = plan.study.network.positions().unwrap_or_default();
+    let groups = plan.study.network.groups();
     let mut colours = Colours::new(positions.len());
     let columns = shown(simulated).map(|position| {
         let of_side = |side: &str, (clusters, grey): (Marks, &str)| {
             let title = epsilon(simulated.epsilon[position]).with_text(format!(", {side}"));
             let grey_label = Label::text(grey);
-            let positions = positions.to_vec();
-            Content::Positions(PositionsPanel { title, positions, clusters, grey_label })
+            let (positions, names) = (positions.to_vec(), names(&clusters, groups));
+            Content::Positions(PositionsPanel { title, positions, clusters, names, grey_label })
         };
         let escaped = simulated.bounded(position) == 0;
         let [above, below] = colours.column(findings.agreement.get(position), escaped);
         [of_side("predicted", above), of_side("simulated", below)]
     });
     pairs_figure(plan.title.clone(), columns.collect())
+}
+
+/// The names of clusters that are groups: theirs.
+fn names(clusters: &[Option<usize>], groups: &[Group]) -> BTreeMap<usize, Label> {
+    let mut nodes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (node, cluster) in clusters.iter().enumerate() {
+        cluster.iter().for_each(|&cluster| nodes.entry(cluster).or_default().push(node));
+    }
+    let group_of = |nodes: &[usize]| groups.iter().find(|group| group.nodes == nodes);
+    let name = |(cluster, nodes): (usize, Vec<usize>)| {
+        Some((cluster, Label::text(group_of(&nodes)?.name.as_str())))
+    };
+    nodes.into_iter().filter_map(name).collect()
 }
 
 /// The colours that nodes had in the columns before.
@@ -109,6 +125,14 @@ fn remember(before: &mut Marks, now: &Marks) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cluster_that_is_a_group_has_its_name() {
+        let group = |name: &str, nodes: &[usize]| Group { name: name.into(), nodes: nodes.into() };
+        let groups = [group("left", &[0, 2]), group("right", &[1, 3])];
+        let names = names(&[Some(7), Some(5), Some(7), None], &groups);
+        assert_eq!(names, BTreeMap::from([(7, Label::text("left"))]));
+    }
 
     #[test]
     fn a_cluster_has_one_colour_in_both_rows_and_all_columns() {

@@ -11,72 +11,32 @@ mod bands;
 mod check;
 mod columns;
 mod layout;
+mod panel;
 mod ruler;
+mod style;
 
 use super::axis::{Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Rect};
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
-use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, Stroke, TICK_SIZE, UNCLUSTERED};
+use super::numbers::grouped;
+use super::style::{AXIS_WIDTH, INK, LABEL_SIZE, MARKER_INK, Stroke, TICK_SIZE, UNCLUSTERED};
 use columns::{Column, Columns};
+use style::{AXIS_GAP, NUMBER_GAP, TICK_LENGTH, count_within};
+
+pub use panel::{CascadeCluster, CascadePanel, CascadeState};
 
 /// Bands thinner than this, 0.35 mm, are drawn as one block.
 const LEAST_BAND: f64 = 0.35 * 72.0 / 25.4;
-/// Distance of the two axes from the bands.
-const AXIS_GAP: f64 = 4.0;
-const TICK_LENGTH: f64 = 2.5;
-/// Distance of numbers from what they belong to.
-const NUMBER_GAP: f64 = 3.0;
 /// Least distance between numbers of nodes.
 const NODE_SPACING: f64 = 16.0;
 /// Height of a row of counts above the bands.
 const COUNT_ROW: f64 = 10.0;
 /// Room at the right, half a number.
 const RIGHT: f64 = 8.0;
-
-/// The predicted clusters at every coupling strength, from strong coupling down.
-#[derive(Clone, Debug)]
-pub struct CascadePanel {
-    /// Number of nodes of the network, N.
-    pub n_nodes: usize,
-    /// The states, at least one, each beginning in ε where the one before ends.
-    pub states: Vec<CascadeState>,
-    /// Position of the state whose clusters another panel of the figure shows, which has a frame.
-    pub shown: Option<usize>,
-}
-
-/// The clusters between two critical couplings.
-#[derive(Clone, Debug)]
-pub struct CascadeState {
-    /// Open range of ε, from its lower end; the first may have no upper end, the last may reach
-    /// down to 0.
-    pub epsilon: (f64, Option<f64>),
-    /// Clusters of two nodes or more; all other nodes are alone.
-    pub clusters: Vec<CascadeCluster>,
-}
-
-/// One cluster of a state.
-#[derive(Clone, Debug)]
-pub struct CascadeCluster {
-    /// Number of its nodes, two or more.
-    pub n_nodes: usize,
-    /// Position, among the clusters of the state before, of the one it came from; none in the
-    /// first state, or where clusters have merged again. A state with such a merged cluster is
-    /// laid out anew, by size, since no place in the state before holds it.
-    pub parent: Option<usize>,
-    /// Shown where there is room, such as C₁ or a name of a group; empty for none.
-    pub label: Label,
-    /// Number of its colour, the same in all panels. The largest part of a cluster has its colour.
-    pub colour: usize,
-}
-
-impl CascadeState {
-    /// Nodes that are in no cluster of `n_nodes` nodes.
-    fn n_alone(&self, n_nodes: usize) -> usize {
-        n_nodes - self.clusters.iter().map(|c| c.n_nodes).sum::<usize>()
-    }
-}
+/// Room beyond the end of a prediction, for words read upwards.
+const BEYOND: f64 = 14.0;
 
 impl CascadePanel {
     /// Draws the states over the whole width of the cell.
@@ -99,6 +59,9 @@ impl CascadePanel {
         bands::draw(canvas, self, &strands, &columns);
         self.draw_counts(canvas, &columns);
         self.draw_nodes(canvas, cell, frame);
+        if self.ends_above_zero() {
+            draw_end(canvas, frame);
+        }
         ruler::draw(canvas, &self.states, &columns, cell);
         Ok(())
     }
@@ -111,9 +74,14 @@ impl CascadePanel {
         Rect {
             left: cell.left + left,
             top: cell.top + self.count_rows().len() as f64 * COUNT_ROW + 4.5,
-            right: cell.right - RIGHT,
+            right: cell.right - RIGHT - if self.ends_above_zero() { BEYOND } else { 0.0 },
             bottom: cell.bottom - ruler::BELOW,
         }
+    }
+
+    /// Whether nothing is predicted below some ε. No cluster is known to change there.
+    fn ends_above_zero(&self) -> bool {
+        self.states.last().is_some_and(|state| state.epsilon.0 > 0.0)
     }
 
     /// Whether any node is alone in any state.
@@ -187,29 +155,20 @@ impl CascadePanel {
     }
 }
 
+/// The end of the prediction, unlike a transition: a dashed line, and beyond it words alone.
+fn draw_end(canvas: &mut Canvas, frame: Rect) {
+    let dashed = Stroke { dash: "3 2", ..Stroke::solid(MARKER_INK, AXIS_WIDTH) };
+    let x = frame.right + AXIS_GAP / 2.0;
+    canvas.line([x, frame.top], [x, frame.bottom + AXIS_GAP], dashed);
+    let at = [
+        frame.right + BEYOND / 2.0 + CAP_HEIGHT * TICK_SIZE / 2.0 + 1.0,
+        frame.top + frame.height() / 2.0,
+    ];
+    canvas.label_upwards(&Label::text("not predicted"), at, TICK_SIZE);
+}
+
 /// A number for each state and the word for what it counts.
 type CountRow = fn(&CascadePanel, usize) -> (usize, &'static str);
-
-/// A count with its word where that is no wider than the first width, without it where that is no
-/// wider than the second.
-fn count_within(n: usize, name: &str, widths: [f64; 2]) -> Option<Label> {
-    let number = grouped(n);
-    let labels = [Label::text(format!("{number} {name}")), Label::text(number)];
-    labels.into_iter().zip(widths).find(|(l, width)| l.width(TICK_SIZE) <= *width).map(|(l, _)| l)
-}
-
-/// A whole number with a comma before every three digits.
-fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
 
 #[cfg(test)]
 mod tests;

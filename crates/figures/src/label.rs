@@ -63,6 +63,13 @@ impl Label {
         self
     }
 
+    /// Appends another label.
+    #[must_use]
+    pub fn with(mut self, other: Self) -> Self {
+        self.runs.extend(other.runs);
+        self
+    }
+
     /// Appends a subscript, set as symbols; straight after a superscript it stands below it.
     #[must_use]
     pub fn subscript(mut self, symbols: &str) -> Self {

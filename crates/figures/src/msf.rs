@@ -23,15 +23,19 @@ pub struct MsfCurve {
     pub zeros: Vec<(f64, String)>,
 }
 
-/// The panel: band of ± 2 standard errors, zeros labelled σ_c or, where there are several, σ_1, σ_2, ….
+/// The panel: band of ± 2 standard errors, and zeros labelled σ_c where there is one, σ_min and σ_max
+/// where two are the ends of one stable interval, as couplings are that follow from them, else σ_1, σ_2, ….
 pub fn msf_panel(curve: &MsfCurve) -> LinePanel {
     let ends = |sign: f64| {
         curve.lambda.iter().zip(&curve.standard_error).map(|(l, e)| l + sign * 2.0 * e).collect()
     };
     let last = curve.sigma.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let stable = curve.stable.iter();
-    let is_one = curve.zeros.len() == 1;
-    let name = |k: usize| if is_one { "c".to_owned() } else { (k + 1).to_string() };
+    let name = |k: usize| match (curve.zeros.len(), curve.stable.len()) {
+        (1, _) => "c".to_owned(),
+        (2, 1) => ["min", "max"][k].to_owned(),
+        _ => (k + 1).to_string(),
+    };
     LinePanel {
         x_label: Label::math("σ"),
         y_label: Label::math("Λ"),
@@ -72,6 +76,23 @@ mod tests {
             zeros: vec![],
         });
         assert_eq!((panel.notes.len(), panel.shaded[0].spans.len()), (0, 1));
+    }
+
+    #[test]
+    fn zeros_are_named_as_the_ends_that_they_are() {
+        let names = |zeros: &[f64], stable: Vec<(f64, Option<f64>)>| -> Vec<Label> {
+            let zeros = zeros.iter().map(|&zero| (zero, "x".to_owned())).collect();
+            let (sigma, lambda, standard_error) = (vec![0.0, 9.0], vec![1.0; 2], vec![0.1; 2]);
+            let panel = msf_panel(&MsfCurve { sigma, lambda, standard_error, stable, zeros });
+            panel.notes.into_iter().map(|note| note.label).collect()
+        };
+        let named = |name: &str| Label::math("σ").subscript(name).with_math(" = x");
+        assert_eq!(names(&[1.0], vec![(1.0, None)]), [named("c")]);
+        assert_eq!(names(&[1.0, 2.0], vec![(1.0, Some(2.0))]), ["min", "max"].map(named));
+        let twice = vec![(1.0, Some(2.0)), (3.0, None)];
+        assert_eq!(names(&[1.0, 2.0, 3.0], twice), ["1", "2", "3"].map(named));
+        let from_zero = vec![(0.0, Some(1.0)), (3.0, None)];
+        assert_eq!(names(&[1.0, 3.0], from_zero), ["1", "2"].map(named));
     }
 
     #[test]

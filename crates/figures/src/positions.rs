@@ -40,6 +40,8 @@ pub struct PositionsPanel {
     pub positions: Vec<[f64; 3]>,
     /// Number of each node's cluster, which has its own colour up to 30; none is grey.
     pub clusters: Vec<Option<usize>>,
+    /// Names of the clusters that are not called by their numbers.
+    pub names: BTreeMap<usize, Label>,
     /// Name of the grey nodes in the legend, such as "not synchronisable"; empty for no legend.
     pub grey_label: Label,
 }
@@ -194,7 +196,8 @@ impl PositionsPanel {
         numbers.dedup();
         let plural = if numbers.len() == 1 { "" } else { "s" };
         let line_height = 1.35 * TICK_SIZE;
-        let most = ((height / line_height) as usize).saturating_sub(3);
+        let is_grey = n_clustered < n_nodes;
+        let most = ((height / line_height) as usize).saturating_sub(2 + usize::from(is_grey));
         let n_named = if numbers.len() > most { most.saturating_sub(1) } else { numbers.len() };
         let mut lines = vec![
             (None, Label::text(format!("{} cluster{plural}", numbers.len()))),
@@ -202,13 +205,16 @@ impl PositionsPanel {
         ];
         lines.extend(numbers[..n_named].iter().map(|&number| {
             let n_nodes = self.clusters.iter().filter(|&&of| of == Some(number)).count();
-            let name = Label::math("C").subscript(&(number + 1).to_string());
+            let own = self.names.get(&number).cloned();
+            let name = own.unwrap_or_else(|| Label::math("C").subscript(&(number + 1).to_string()));
             (Some(cluster_fill(number)), name.with_text(format!(": {n_nodes} nodes")))
         }));
         if n_named < numbers.len() {
             lines.push((None, Label::text(format!("and {} more", numbers.len() - n_named))));
         }
-        lines.push((Some(UNCLUSTERED), self.grey_label.clone()));
+        if is_grey {
+            lines.push((Some(UNCLUSTERED), self.grey_label.clone()));
+        }
         let lead = |fill: Option<&str>| if fill.is_some() { KEY_LEAD } else { 0.0 };
         let widest = lines.iter().map(|(fill, line)| lead(*fill) + line.width(TICK_SIZE));
         // In a narrow column the whole key is smaller.
@@ -230,6 +236,7 @@ impl PositionsPanel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::texts;
     use resvg::usvg::roxmltree::Document;
 
     const CELL: Rect = Rect { left: 0.0, top: 0.0, right: 200.0, bottom: 200.0 };
@@ -302,7 +309,12 @@ mod tests {
             assert!(svg.contains(expected), "no {expected} in {svg}");
         }
         let one = PositionsPanel { clusters: vec![Some(4); 4], ..corners() };
-        assert!(svg_of(&one).unwrap().contains(">1 cluster<"));
+        let svg = svg_of(&one).unwrap();
+        assert!(svg.contains(">1 cluster<"));
+        assert!(!svg.contains("synchronisable"), "a key to grey nodes that there are not");
+        let names = BTreeMap::from([(4, Label::text("left"))]);
+        let named = texts(&svg_of(&PositionsPanel { names, ..one }).unwrap());
+        assert!(named.contains(&"left: 4 nodes".to_string()), "{named:?}");
     }
 
     #[test]

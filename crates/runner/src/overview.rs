@@ -17,8 +17,9 @@ use spectra::Verification;
 
 use crate::provenance::peak_memory;
 use experiment::Plan;
+use figures::grouped;
 use user::Stages;
-use words::{SHOWN, abridged, grouped};
+use words::{SHOWN, abridged};
 
 /// Sizes shown of the clusters of one state.
 const SIZES: usize = 5;

@@ -28,7 +28,7 @@ fn a_curve_without_a_network_tells_its_zeros_and_what_was_looked_at() {
     ] {
         assert!(answer.stdout.contains(expected), "{expected} in:\n{}", answer.stdout);
     }
-    let names = ["figure.png", "figure.svg", "msf.csv", "summary.json"];
+    let names = ["figure.pdf", "figure.png", "figure.svg", "msf.csv", "summary.json"];
     assert_eq!(place.names("results/lorenz-x-y"), names);
     let summary = place.json("results/lorenz-x-y/summary.json");
     let zero = &summary["msf"]["zeros"][0];

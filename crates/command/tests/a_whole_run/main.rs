@@ -5,6 +5,7 @@ mod cascade;
 mod comparison;
 mod curve;
 mod documents;
+mod drawn;
 mod ending;
 mod faults;
 mod figures;

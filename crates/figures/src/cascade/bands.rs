@@ -4,7 +4,8 @@
 
 use super::columns::{Column, Columns};
 use super::layout::{Clusters, Strand, Stretch};
-use super::{CascadePanel, count_within};
+use super::panel::CascadePanel;
+use super::style::count_within;
 use crate::canvas::{Canvas, Point, Rect};
 use crate::font::CAP_HEIGHT;
 use crate::label::Label;
@@ -178,12 +179,17 @@ impl Page<'_> {
     /// Names of clusters and counts of blocks, where there is room and they are news.
     fn draw_labels(&self, canvas: &mut Canvas, strand: &Strand) {
         let fill = fill(strand);
-        let mut shown = None;
+        let mut shown: Option<(Label, Rect)> = None;
         for column in &self.columns.drawn {
             let Some(stretch) = strand.at(column.state) else { continue };
             let extent = self.extent(column, stretch);
             let Some(label) = self.label(column, stretch, extent) else { continue };
-            if shown.as_ref() == Some(&label) {
+            // A band that stands elsewhere, in a state laid out anew, needs its name again.
+            let middle = (extent.top + extent.bottom) / 2.0;
+            let goes_on = |(name, last): &(Label, Rect)| {
+                *name == label && (last.top..last.bottom).contains(&middle)
+            };
+            if shown.as_ref().is_some_and(goes_on) {
                 continue;
             }
             let middle = [(extent.left + extent.right) / 2.0, (extent.top + extent.bottom) / 2.0];
@@ -192,7 +198,7 @@ impl Page<'_> {
                 canvas.rect(ground(&label, middle), &fill);
             }
             canvas.label_in(&label, baseline, TICK_SIZE, ink_on(&fill));
-            shown = Some(label);
+            shown = Some((label, extent));
         }
     }
 

@@ -1,7 +1,7 @@
 //! What can be wrong with the data of a cascade: its ranges of ε follow one another, and clusters
 //! fit into what they came from.
 
-use super::{CascadePanel, CascadeState};
+use super::panel::{CascadePanel, CascadeState};
 use crate::cascade_error::CascadeError;
 
 impl CascadePanel {

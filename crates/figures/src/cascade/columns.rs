@@ -3,7 +3,7 @@
 //! Critical couplings keep their true places on a logarithmic scale. States without an end (the
 //! first towards ε = ∞, the last towards ε = 0) go on to the edge of the frame.
 
-use super::CascadeState;
+use super::panel::CascadeState;
 use crate::axis::{Axis, Scale};
 use crate::canvas::Rect;
 
@@ -68,7 +68,14 @@ impl Columns {
         self.frame.width() - self.open
     }
 
-    /// Critical couplings, falling, with their places.
+    /// Places at which one state follows another: not the end of the first above, nor that of the last
+    /// below, which are ends of what is known.
+    pub(super) fn transitions(&self, states: &[CascadeState]) -> Vec<f64> {
+        let between = states.iter().skip(1).filter_map(|state| state.epsilon.1);
+        between.filter_map(|end| self.axis?.at(end)).collect()
+    }
+
+    /// Ends of states, falling, with their places.
     pub(super) fn ends(&self, states: &[CascadeState]) -> Vec<(f64, f64)> {
         let place = |end| Some((end, self.axis?.at(end)?));
         ends(states).into_iter().filter_map(place).collect()

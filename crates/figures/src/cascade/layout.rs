@@ -1,14 +1,14 @@
 //! Where the clusters of each state stand, in nodes from the top, and which bands go on from state
 //! to state.
 //!
-//! A strand is a band over the states in which a cluster is the largest part of what it came from,
-//! or a block of clusters too thin to tell apart. What comes from a strand lies within its extent,
+//! A strand is a band over the states in which a cluster is the largest part of what it came from, and
+//! has its colour, or a block of clusters too thin to tell apart. What comes from a strand lies within its extent,
 //! first the clusters thick enough for bands of their own by falling size, then one block of all
 //! others, then the nodes that have become alone.
 
 use std::cmp::Reverse;
 
-use super::{CascadeCluster, CascadePanel};
+use super::panel::{CascadeCluster, CascadePanel};
 
 /// A band or block over consecutive states.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +115,10 @@ impl Layout {
             let mut from = room.from;
             for c in thick {
                 // What a thick cluster came from was thick too, so that it had a band.
-                let parent = clusters[c].parent.filter(|&p| heirs[p] == Some(c));
+                let goes_on = |p: &usize| {
+                    heirs[*p] == Some(c) && self.strands[before[*p]].colour == clusters[c].colour
+                };
+                let parent = clusters[c].parent.filter(goes_on);
                 let strand = match parent {
                     Some(parent) => before[parent],
                     None => self.begin(state, clusters[c].colour, false),

@@ -1,11 +1,13 @@
 //! Below the bands: the critical couplings at which states meet, and the axis of ε.
 
 use super::columns::Columns;
-use super::{AXIS_GAP, CascadeState, NUMBER_GAP, TICK_LENGTH};
+use super::panel::CascadeState;
+use super::style::{AXIS_GAP, NUMBER_GAP, TICK_LENGTH};
 use crate::axis::{Axis, Scale, Tick};
 use crate::canvas::{Anchor, Canvas, Rect};
 use crate::font::CAP_HEIGHT;
 use crate::label::Label;
+use crate::numbers::{number, told_apart};
 use crate::style::{AXIS_WIDTH, INK, LABEL_SIZE, MARKER_INK, Stroke, TICK_SIZE};
 
 /// Distances from the bands to the values of critical couplings, and to the axis.
@@ -29,17 +31,24 @@ const SHORT: f64 = 3.0;
 pub(super) fn draw(canvas: &mut Canvas, states: &[CascadeState], columns: &Columns, cell: Rect) {
     let frame = columns.frame;
     let bounds = [frame.left - 2.0 * GAP, cell.right];
-    draw_values(canvas, &columns.ends(states), frame, bounds);
+    draw_values(canvas, columns, states, bounds);
     draw_axis(canvas, columns, bounds);
     let middle = (frame.left + frame.right) / 2.0;
-    canvas.label(&Label::math("ε"), [middle, frame.bottom + NAME], LABEL_SIZE, Anchor::Middle);
+    // A state of all couplings leaves no number to write at the axis.
+    let name = if columns.axis.is_some() {
+        Label::math("ε")
+    } else {
+        Label::text("every ").with_math("ε > 0")
+    };
+    canvas.label(&name, [middle, frame.bottom + NAME], LABEL_SIZE, Anchor::Middle);
 }
 
-/// A mark at every critical coupling, and values where there is room: the first, then those at
-/// which the longest states begin.
-fn draw_values(canvas: &mut Canvas, ends: &[(f64, f64)], frame: Rect, bounds: [f64; 2]) {
+/// A mark at every critical coupling, and values where there is room: the first, the one at which
+/// the prediction ends, then those at which the longest states begin.
+fn draw_values(canvas: &mut Canvas, columns: &Columns, states: &[CascadeState], bounds: [f64; 2]) {
+    let (frame, ends) = (columns.frame, &columns.ends(states)[..]);
     let ink = Stroke::solid(MARKER_INK, AXIS_WIDTH);
-    let mut places: Vec<f64> = ends.iter().map(|end| end.1).collect();
+    let mut places: Vec<f64> = columns.transitions(states);
     places.dedup_by(|next, last| *next - *last < AXIS_WIDTH);
     let mark = |x: &f64| [[*x, frame.bottom + 0.5], [*x, frame.bottom + AXIS_GAP]];
     canvas.segments(&places.iter().map(mark).collect::<Vec<_>>(), ink, 1.0);
@@ -48,7 +57,8 @@ fn draw_values(canvas: &mut Canvas, ends: &[(f64, f64)], frame: Rect, bounds: [f
     let next = |k: usize| ends.get(k + 1).map_or(frame.right, |end| end.1);
     let mut order: Vec<usize> = (0..ends.len()).collect();
     order.sort_by(|&a, &b| (next(b) - ends[b].1).total_cmp(&(next(a) - ends[a].1)));
-    order.sort_by_key(|&k| k != 0);
+    let is_end = |k: usize| !columns.is_open[1] && k + 1 == ends.len();
+    order.sort_by_key(|&k| (k != 0, !is_end(k)));
     // At the edge of the panel a value stands beside its mark rather than nowhere.
     let place = |k: usize| {
         let half = labels[k].width(TICK_SIZE) / 2.0;
@@ -144,36 +154,4 @@ pub(super) fn side_by_side(
         }
     }
     kept
-}
-
-/// Values to three significant digits, or as many more, up to nine, as tell neighbours apart.
-fn told_apart(values: &[f64]) -> Vec<Label> {
-    let label = |k: usize| {
-        let neighbours = [k.checked_sub(1), Some(k + 1)];
-        let neighbours: Vec<f64> =
-            neighbours.into_iter().flatten().filter_map(|j| values.get(j).copied()).collect();
-        let differs = |digits: &usize| {
-            neighbours.iter().all(|&other| number(other, *digits) != number(values[k], *digits))
-        };
-        number(values[k], (3..=9).find(differs).unwrap_or(9))
-    };
-    (0..values.len()).map(label).collect()
-}
-
-/// A number to so many significant digits, without zeros at its end.
-fn number(value: f64, digits: usize) -> Label {
-    let scientific = format!("{value:.*e}", digits - 1);
-    let (mantissa, exponent) = scientific.split_once('e').expect("this notation has an exponent");
-    let exponent: i32 = exponent.parse().expect("an exponent is a whole number");
-    let trimmed = |text: &str| match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-        false => text.to_string(),
-    };
-    if (-3..5).contains(&exponent) {
-        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-        return Label::text(trimmed(&format!("{value:.decimals$}")));
-    }
-    let mantissa = trimmed(mantissa);
-    let base = if mantissa == "1" { "10".into() } else { format!("{mantissa}×10") };
-    Label::text(base).superscript(&exponent.to_string())
 }

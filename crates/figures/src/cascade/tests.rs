@@ -193,7 +193,9 @@ fn a_state_with_merged_clusters_is_laid_out_anew_by_size() {
     assert_eq!(extents(&strands, 3, 2), [[45, 65], [0, 45]]);
     let kept = strands.iter().find(|s| s.at(3).is_some_and(|at| at.from == 45)).unwrap();
     assert!(kept.first < 3, "a cluster that goes on lost its colour");
-    assert!(texts(&svg(&panel)).contains(&"merged".to_string()));
+    let found = texts(&svg(&panel));
+    assert!(found.contains(&"merged".to_string()));
+    assert_eq!(found.iter().filter(|text| *text == "b").count(), 2, "a band that moved: {found:?}");
 }
 
 #[test]
@@ -292,6 +294,33 @@ fn a_single_state_and_a_single_node_can_be_drawn() {
         assert!(texts(&svg(&panel)).contains(&"1 cluster".to_string()));
     }
     assert!(texts(&svg(&panel(1, &[0.0], vec![vec![]]))).contains(&"1 alone".to_string()));
+}
+
+#[test]
+fn the_end_of_a_prediction_is_drawn_unlike_a_transition() {
+    let marks = |svg: &str| {
+        let path = svg.split("<path").find(|path| path.contains(MARKER_INK)).unwrap_or_default();
+        path.split("d=\"").nth(1).unwrap_or_default().matches('M').count()
+    };
+    let ends = small();
+    let text = svg(&ends);
+    let found = texts(&text);
+    assert!(found.contains(&"not predicted".to_string()) && found.contains(&"9.2".to_string()));
+    assert_eq!((marks(&text), text.matches("stroke-dasharray").count()), (2, 1));
+    let mut goes_on = ends;
+    goes_on.states[2].epsilon.0 = 0.0;
+    let text = svg(&goes_on);
+    assert!(!texts(&text).contains(&"not predicted".to_string()));
+    assert_eq!((marks(&text), text.matches("stroke-dasharray").count()), (2, 0));
+}
+
+#[test]
+fn the_axis_of_a_single_state_says_where_it_holds() {
+    let alone = |end| panel(6, &[end], vec![vec![cluster(6, None, "")]]);
+    let found = texts(&svg(&alone(0.0)));
+    assert!(found.iter().any(|text| text.starts_with("every")), "{found:?}");
+    let found = texts(&svg(&alone(0.8)));
+    assert!(found.contains(&"0.8".to_string()) && !found.iter().any(|t| t.starts_with("every")));
 }
 
 #[test]

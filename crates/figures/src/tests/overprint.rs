@@ -96,6 +96,7 @@ fn labels_never_overprint_in_any_panel() {
         title: Label::math("ε").with_text(" = 15.125, predicted"),
         positions: (0..90).map(|k| [f64::from(k % 9), f64::from(k % 7), f64::from(k)]).collect(),
         clusters: (0..90).map(|k| (k > 9).then_some(k % 25)).collect(),
+        names: [(0, Label::text("caudal anterior cingulate of the left"))].into(),
         grey_label: Label::text("not synchronisable"),
     };
     for width_mm in [90.0, 130.0, 170.0] {

@@ -7,8 +7,9 @@ use std::fmt::Write;
 
 use clustering::{ClusterKind, ClusterLabel, ClusterRule, State, StateLabels};
 
-use super::words::{NODES, SHOWN, grouped, named};
+use super::words::{NODES, SHOWN, named};
 use experiment::Plan;
+use figures::grouped;
 
 /// The lines about the exactness of a prediction.
 pub fn of(plan: &Plan, findings: &Findings) -> String {

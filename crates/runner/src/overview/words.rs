@@ -18,13 +18,6 @@ pub fn abridged(values: impl Iterator<Item = String>) -> String {
     shown.join(", ")
 }
 
-/// A count with commas between groups of three digits.
-pub fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
-    groups.collect::<Vec<_>>().join(",")
-}
-
 /// A cluster by its first nodes.
 pub fn named(plan: &Plan, nodes: &[usize]) -> String {
     let shown = nodes.iter().take(NODES).map(|&node| {
@@ -41,11 +34,6 @@ pub fn named(plan: &Plan, nodes: &[usize]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn counts_are_grouped_by_thousands() {
-        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-    }
 
     #[test]
     fn long_lists_are_abridged() {
