@@ -1,0 +1,3 @@
+//! Speed of programs.
+
+fn main() {}
