@@ -1,0 +1,163 @@
+//! A program as it runs: a straight list of operations on registers, each of which writes the next one.
+
+use crate::builder::{Builder, Step, Value};
+use crate::names::{Comparison, Unary};
+use crate::scalar::Code;
+
+/// A place for numbers. First come inputs, then constants, then what each operation writes.
+pub(crate) type Register = u32;
+
+/// An operation on registers. Sums, products and quotients with a constant carry it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Operation {
+    Add(Register, Register),
+    AddConstant(Register, f64),
+    Subtract(Register, Register),
+    SubtractConstant(Register, f64),
+    SubtractFrom(f64, Register),
+    Multiply(Register, Register),
+    MultiplyConstant(Register, f64),
+    Divide(Register, Register),
+    DivideByConstant(Register, f64),
+    ConstantOver(f64, Register),
+    Negate(Register),
+    Unary(Unary, Register),
+    Power(Register, Register),
+    Min(Register, Register),
+    Max(Register, Register),
+    Atan2(Register, Register),
+    Compare(Comparison, Register, Register),
+    And(Register, Register),
+    Or(Register, Register),
+    Not(Register),
+    Select(Register, Register, Register),
+}
+
+/// A program.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tape {
+    pub inputs: usize,
+    pub constants: Vec<f64>,
+    pub operations: Vec<Operation>,
+    /// Where what comes out is found.
+    pub outputs: Vec<Register>,
+}
+
+impl Tape {
+    /// What of the operations is needed for some values.
+    pub(crate) fn new(builder: &Builder, inputs: usize, outputs: &[Value]) -> Self {
+        let steps: Vec<(usize, Step)> = needed(builder, outputs);
+        let mut constants = Constants { from: inputs, values: Vec::new() };
+        // All constants come before all operations, so they are known first.
+        for (_, step) in &steps {
+            constants.add_operands(step);
+        }
+        for output in outputs {
+            constants.add(*output);
+        }
+        let behind = inputs + constants.values.len();
+        let mut register_of = vec![None; builder.steps.len()];
+        let mut operations = Vec::with_capacity(steps.len());
+        for (place, (index, step)) in steps.iter().enumerate() {
+            let register = |value: &Value| constants.register(*value, &register_of);
+            operations.push(operation(step, register));
+            register_of[*index] = Some((behind + place) as Register);
+        }
+        let outputs =
+            outputs.iter().map(|output| constants.register(*output, &register_of)).collect();
+        Self { inputs, constants: constants.values, operations, outputs }
+    }
+
+    /// Registers that it takes.
+    pub(crate) fn registers(&self) -> usize {
+        self.inputs + self.constants.len() + self.operations.len()
+    }
+}
+
+/// Steps from which some values follow, in order.
+fn needed(builder: &Builder, outputs: &[Value]) -> Vec<(usize, Step)> {
+    let mut is_needed = vec![false; builder.steps.len()];
+    let mark = |value: &Value, is_needed: &mut Vec<bool>| {
+        if let Value::Step(step) = value {
+            is_needed[*step] = true;
+        }
+    };
+    outputs.iter().for_each(|output| mark(output, &mut is_needed));
+    for (index, step) in builder.steps.iter().enumerate().rev() {
+        if is_needed[index] {
+            step.operands().iter().for_each(|operand| mark(operand, &mut is_needed));
+        }
+    }
+    let steps = builder.steps.iter().copied().enumerate();
+    steps.filter(|(index, _)| is_needed[*index]).collect()
+}
+
+/// Constants that need registers, each once.
+struct Constants {
+    from: usize,
+    values: Vec<f64>,
+}
+
+impl Constants {
+    fn add(&mut self, value: Value) {
+        if let Value::Constant(constant) = value
+            && self.place(constant).is_none()
+        {
+            self.values.push(constant);
+        }
+    }
+
+    /// Those operands that the operation does not carry.
+    fn add_operands(&mut self, step: &Step) {
+        if !carries_constants(step.code) {
+            step.operands().iter().for_each(|operand| self.add(*operand));
+        }
+    }
+
+    fn place(&self, constant: f64) -> Option<usize> {
+        self.values.iter().position(|known| known.to_bits() == constant.to_bits())
+    }
+
+    fn register(&self, value: Value, register_of: &[Option<Register>]) -> Register {
+        match value {
+            Value::Input(input) => input as Register,
+            Value::Step(step) => register_of[step].expect("a step comes after its operands"),
+            Value::Constant(constant) => {
+                let place = self.place(constant).expect("constants were collected before");
+                (self.from + place) as Register
+            }
+        }
+    }
+}
+
+fn carries_constants(code: Code) -> bool {
+    matches!(code, Code::Add | Code::Subtract | Code::Multiply | Code::Divide)
+}
+
+fn operation(step: &Step, register: impl Fn(&Value) -> Register) -> Operation {
+    use Value::Constant;
+    match (step.code, step.operands()) {
+        (Code::Add, [a, Constant(b)]) => Operation::AddConstant(register(a), *b),
+        (Code::Add, [a, b]) => Operation::Add(register(a), register(b)),
+        (Code::Subtract, [a, Constant(b)]) => Operation::SubtractConstant(register(a), *b),
+        (Code::Subtract, [Constant(a), b]) => Operation::SubtractFrom(*a, register(b)),
+        (Code::Subtract, [a, b]) => Operation::Subtract(register(a), register(b)),
+        (Code::Multiply, [a, Constant(b)]) => Operation::MultiplyConstant(register(a), *b),
+        (Code::Multiply, [a, b]) => Operation::Multiply(register(a), register(b)),
+        (Code::Divide, [a, Constant(b)]) => Operation::DivideByConstant(register(a), *b),
+        (Code::Divide, [Constant(a), b]) => Operation::ConstantOver(*a, register(b)),
+        (Code::Divide, [a, b]) => Operation::Divide(register(a), register(b)),
+        (Code::Negate, [a]) => Operation::Negate(register(a)),
+        (Code::Unary(function), [a]) => Operation::Unary(function, register(a)),
+        (Code::Power, [a, b]) => Operation::Power(register(a), register(b)),
+        (Code::Min, [a, b]) => Operation::Min(register(a), register(b)),
+        (Code::Max, [a, b]) => Operation::Max(register(a), register(b)),
+        (Code::Atan2, [a, b]) => Operation::Atan2(register(a), register(b)),
+        (Code::Compare(by), [a, b]) => Operation::Compare(by, register(a), register(b)),
+        (Code::And, [a, b]) => Operation::And(register(a), register(b)),
+        (Code::Or, [a, b]) => Operation::Or(register(a), register(b)),
+        (Code::Not, [a]) => Operation::Not(register(a)),
+        (Code::Select, [a, b, c]) => Operation::Select(register(a), register(b), register(c)),
+        (code, operands) => unreachable!("{code:?} of {} operands", operands.len()),
+    }
+}
