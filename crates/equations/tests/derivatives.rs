@@ -164,10 +164,10 @@ fn program(formula: &'static str) -> Program {
 fn linearise(program: &Program, x: [f64; 4], delta: [f64; 4]) -> Dual {
     let mut to = [[[0.0]; 4]; 2];
     let (at, along) = (x.map(|x| [x]), delta.map(|x| [x]));
-    let [at, along] = [&at, &along].map(|state| state.each_ref().map(|x| x.as_slice()));
+    let [at, along] = [&at, &along].map(|state| state.each_ref().map(<[f64; 1]>::as_slice));
     let [values, slopes] = &mut to;
     let [mut values, mut slopes] =
-        [values, slopes].map(|to| to.each_mut().map(|x| x.as_mut_slice()));
+        [values, slopes].map(|to| to.each_mut().map(<[f64; 1]>::as_mut_slice));
     program.linearise(&mut Registers::new(), [&at, &along], [&mut values, &mut slopes]);
     [values[0][0], slopes[0][0]]
 }
