@@ -44,7 +44,7 @@ impl Program {
 
     /// Operations of an evaluation, without and with derivatives.
     pub fn n_operations(&self) -> [usize; 2] {
-        [self.values.operations.len(), self.tangents.operations.len()]
+        [self.values.instructions.len(), self.tangents.instructions.len()]
     }
 
     /// F(x) of every number: `x[c]` are numbers of component c, and `to[k]` as many of output k.

@@ -33,14 +33,30 @@ pub(crate) enum Operation {
     Select(Register, Register, Register),
 }
 
+/// An operation, and the output that it alone writes and nothing else reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Instruction {
+    pub operation: Operation,
+    pub output: u32,
+}
+
+/// The output of an instruction that has none.
+pub(crate) const NO_OUTPUT: u32 = u32::MAX;
+
+/// Where what comes out is found, and whether its instruction writes it by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Output {
+    pub register: Register,
+    pub is_direct: bool,
+}
+
 /// A program.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tape {
     pub inputs: usize,
     pub constants: Vec<f64>,
-    pub operations: Vec<Operation>,
-    /// Where what comes out is found.
-    pub outputs: Vec<Register>,
+    pub instructions: Vec<Instruction>,
+    pub outputs: Vec<Output>,
 }
 
 impl Tape {
@@ -57,20 +73,29 @@ impl Tape {
         }
         let behind = inputs + constants.values.len();
         let mut register_of = vec![None; builder.steps.len()];
-        let mut operations = Vec::with_capacity(steps.len());
+        let mut instructions = Vec::with_capacity(steps.len());
         for (place, (index, step)) in steps.iter().enumerate() {
             let register = |value: &Value| constants.register(*value, &register_of);
-            operations.push(operation(step, register));
+            let operation = operation(step, register);
+            instructions.push(Instruction { operation, output: NO_OUTPUT });
             register_of[*index] = Some((behind + place) as Register);
         }
-        let outputs =
-            outputs.iter().map(|output| constants.register(*output, &register_of)).collect();
-        Self { inputs, constants: constants.values, operations, outputs }
+        let reads = reads(&steps, outputs, builder.steps.len());
+        let output = |(number, value): (usize, &Value)| {
+            let register = constants.register(*value, &register_of);
+            let is_direct = matches!(value, Value::Step(step) if reads[*step] == 1);
+            if is_direct {
+                instructions[register as usize - behind].output = number as u32;
+            }
+            Output { register, is_direct }
+        };
+        let outputs = outputs.iter().enumerate().map(output).collect();
+        Self { inputs, constants: constants.values, instructions, outputs }
     }
 
     /// Registers that it takes.
     pub(crate) fn registers(&self) -> usize {
-        self.inputs + self.constants.len() + self.operations.len()
+        self.inputs + self.constants.len() + self.instructions.len()
     }
 }
 
@@ -90,6 +115,18 @@ fn needed(builder: &Builder, outputs: &[Value]) -> Vec<(usize, Step)> {
     }
     let steps = builder.steps.iter().copied().enumerate();
     steps.filter(|(index, _)| is_needed[*index]).collect()
+}
+
+/// How often each step is read, by others or as an output.
+fn reads(steps: &[(usize, Step)], outputs: &[Value], n_steps: usize) -> Vec<usize> {
+    let mut reads = vec![0; n_steps];
+    let operands = steps.iter().flat_map(|(_, step)| step.operands());
+    for value in operands.chain(outputs) {
+        if let Value::Step(step) = value {
+            reads[*step] += 1;
+        }
+    }
+    reads
 }
 
 /// Constants that need registers, each once.
