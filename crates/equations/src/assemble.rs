@@ -2,7 +2,8 @@
 
 use crate::builder::{Builder, Value};
 use crate::expression::{Expression, Node};
-use crate::system::{Kind, Symbol, System};
+use crate::symbol::Symbol;
+use crate::system::{Kind, System};
 
 /// A system as operations.
 pub(crate) struct Assembled {

@@ -56,20 +56,10 @@ impl From<Value> for Key {
 }
 
 /// Operations in a row.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Builder {
     pub steps: Vec<Step>,
     known: HashMap<(Code, [Key; 3]), usize>,
-}
-
-impl std::fmt::Debug for Key {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Input(input) => write!(f, "input {input}"),
-            Self::Step(step) => write!(f, "step {step}"),
-            Self::Constant(bits) => write!(f, "{}", f64::from_bits(*bits)),
-        }
-    }
 }
 
 impl Builder {

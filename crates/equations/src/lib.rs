@@ -65,6 +65,7 @@ mod parser;
 mod program;
 mod run;
 mod scalar;
+mod symbol;
 mod system;
 mod tangent;
 mod tape;

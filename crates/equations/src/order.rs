@@ -1,7 +1,7 @@
 //! An order of named subexpressions in which each comes after those it is made of.
 
 use crate::expression::Expression;
-use crate::system::Symbol;
+use crate::symbol::Symbol;
 
 /// How far the search has come with a subexpression.
 #[derive(Clone, Copy, PartialEq)]

@@ -8,6 +8,7 @@ use crate::expression::Expression;
 use crate::mistake::{Fault, Mistake, Place};
 use crate::names::{self, PI, TIME};
 use crate::order::in_order;
+use crate::symbol::Symbol;
 
 /// Components that a system can have at the most.
 pub const MAX_COMPONENTS: usize = 16;
@@ -40,16 +41,6 @@ pub struct Description<'a> {
     pub subexpressions: Vec<(&'a str, &'a str)>,
     /// Parameters with their values.
     pub parameters: Vec<(&'a str, f64)>,
-}
-
-/// What a name means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Symbol {
-    Component(usize),
-    Subexpression(usize),
-    Parameter(usize),
-    Time,
-    Pi,
 }
 
 /// Something that is no mistake, but may be one.

@@ -1,6 +1,7 @@
 //! exp x = 2^k exp r with x = k ln 2 + r, |r| ≤ ½ ln 2.
 
-use super::{LN_2, TO_INTEGER, two};
+use super::constants::{LN_2, TO_INTEGER};
+use super::two;
 
 /// From here on exp is infinite.
 const LARGEST: f64 = 710.0;

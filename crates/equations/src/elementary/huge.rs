@@ -2,7 +2,7 @@
 //!
 //! Source: M. H. Payne & R. N. Hanek, SIGNUM Newsletter 18, 19 (1983).
 
-use super::sin_cos::Reduced;
+use super::reduced::Reduced;
 use super::two;
 
 /// 2/π behind the point, after 64 zeros.

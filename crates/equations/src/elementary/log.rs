@@ -1,6 +1,9 @@
 //! log x = k ln 2 + log m with x = 2^k m, √½ ≤ m < √2, and log m = 2 artanh s with s = (m − 1) / (m + 1).
+//!
+//! Source of the order of its sums: `e_log.c` of fdlibm, Sun Microsystems (1993).
 
-use super::{INTEGERS, LN_2, two};
+use super::constants::{INTEGERS, LN_2};
+use super::two;
 
 /// The bits of √½.
 const SMALLEST: u64 = 0x3fe6_a09e_667f_3bcd;

@@ -1,8 +1,9 @@
 //! x^y = exp(y log x), the logarithm and its product with y in two parts.
 
+use super::constants::INTEGERS;
 use super::exp::exp_of_two;
 use super::log::log_in_two;
-use super::{INTEGERS, two};
+use super::two;
 
 /// From here on y makes every power but that of 1 zero or infinite.
 const LARGEST: f64 = 36_893_488_147_419_103_232.0; // 2^65

@@ -5,7 +5,9 @@
 //!
 //! Source: W. J. Cody & W. Waite, Software Manual for the Elementary Functions (1980).
 
-use super::{TO_INTEGER, huge, two};
+use super::constants::TO_INTEGER;
+use super::reduced::Reduced;
+use super::{huge, two};
 
 /// Up to this size of x, [`sin`] and [`cos`] are right.
 pub(crate) const REDUCED: f64 = 1_048_576.0;
@@ -20,14 +22,6 @@ const HALF_PI: [f64; 4] = [
     f64::from_bits(0x3ba3_198a_2e00_0000),
     f64::from_bits(0x397b_839a_2520_49c1),
 ];
-
-/// x as n π/2 + r + r_low; of n the last two bits are right.
-#[derive(Clone, Copy)]
-pub(super) struct Reduced {
-    pub(super) n: u64,
-    pub(super) r: f64,
-    pub(super) r_low: f64,
-}
 
 /// Sine of an x up to [`REDUCED`].
 #[inline(always)]

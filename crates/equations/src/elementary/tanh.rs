@@ -1,7 +1,8 @@
 //! tanh x = E / (E + 2) with E = exp 2|x| − 1, in two parts.
 
+use super::constants::TO_INTEGER;
 use super::exp::{power_of_two, reduced};
-use super::{TO_INTEGER, two};
+use super::two;
 
 /// From here on tanh is ±1.
 const LARGEST: f64 = 20.0;
