@@ -10,7 +10,6 @@ use std::ops::Range;
 use crate::elementary::{self, REDUCED};
 use crate::names::{Comparison, Unary};
 use crate::scalar::select;
-use crate::system::MAX_COMPONENTS;
 use crate::tape::{Instruction, NO_OUTPUT, Operation, Tape};
 
 /// Numbers that are read, computed and written together.
@@ -23,9 +22,6 @@ const BLOCK: usize = 4;
 
 /// Registers of so many tiles stay in the nearest cache; programs with more do tile by tile.
 const MOST_IN_BLOCKS: usize = 64;
-
-/// Components and their tangents at the most.
-const MOST_INPUTS: usize = 2 * MAX_COMPONENTS;
 
 /// Numbers in a line of the cache, which no vector shall straddle.
 const LINE: usize = 8;
@@ -104,27 +100,21 @@ impl Tape {
         numbers: Range<usize>,
     ) {
         let registers = self.room::<P>(registers);
-        let mut blocks: [&[Tile; P]; MOST_INPUTS] = [&[[0.0; TILE]; P]; MOST_INPUTS];
         for start in numbers.clone().step_by(P * TILE) {
             let count = (P * TILE).min(numbers.end - start);
             let is_whole = count == P * TILE;
-            let inputs = inputs.into_iter().flatten();
-            if is_whole {
-                for (block, input) in blocks.iter_mut().zip(inputs) {
-                    *block = block_at(input, start);
-                }
-            } else {
-                for (register, input) in registers.iter_mut().zip(inputs) {
+            if !is_whole {
+                for (register, input) in registers.iter_mut().zip(inputs.into_iter().flatten()) {
                     pad(register.as_flattened_mut(), &input[start..][..count]);
                 }
             }
-            let inputs = is_whole.then_some(&blocks);
-            self.execute(registers, inputs, [&mut *first, &mut *second], start);
+            let inputs = Inputs { groups: inputs, start, in_place: is_whole };
+            self.execute(registers, inputs, [&mut *first, &mut *second]);
             let places = self.outputs.iter().zip(first.iter_mut().chain(second.iter_mut()));
             for (place, output) in places.filter(|(place, _)| !(is_whole && place.is_direct)) {
                 let register = place.register as usize;
                 let is_input = is_whole && register < self.inputs;
-                let block = if is_input { blocks[register] } else { &registers[register] };
+                let block = if is_input { inputs.block(register) } else { &registers[register] };
                 output[start..][..count].copy_from_slice(&block.as_flattened()[..count]);
             }
         }
@@ -140,32 +130,30 @@ impl Tape {
         registers
     }
 
-    /// All operations on the block from one number on. Inputs are those that are given, or in their
-    /// registers; in the first case outputs are written that nothing else reads.
+    /// All operations on a block. Outputs that nothing else reads are written where they belong, if
+    /// inputs are read so.
     #[inline(always)]
     fn execute<const P: usize>(
         &self,
         registers: &mut [[Tile; P]],
-        inputs: Option<&[&[Tile; P]; MOST_INPUTS]>,
+        inputs: Inputs<'_>,
         [first, second]: [&mut [&mut [f64]]; 2],
-        start: usize,
     ) {
         let fixed = self.inputs + self.constants.len();
-        let n_inputs = if inputs.is_some() { self.inputs } else { 0 };
-        let inputs = inputs.unwrap_or(&[&[[0.0; TILE]; P]; MOST_INPUTS]);
+        let n_in_place = if inputs.in_place { self.inputs } else { 0 };
         for (place, Instruction { operation, output }) in self.instructions.iter().enumerate() {
             let (known, rest) = registers.split_at_mut(fixed + place);
             let at = |register: u32| {
                 let register = register as usize;
-                if register < n_inputs { inputs[register] } else { &known[register] }
+                if register < n_in_place { inputs.block(register) } else { &known[register] }
             };
             let output = *output as usize;
-            let to = if n_inputs == 0 || output == NO_OUTPUT as usize {
+            let to = if !inputs.in_place || output == NO_OUTPUT as usize {
                 &mut rest[0]
             } else if output < first.len() {
-                block_at_mut(first[output], start)
+                block_at_mut(first[output], inputs.start)
             } else {
-                block_at_mut(second[output - first.len()], start)
+                block_at_mut(second[output - first.len()], inputs.start)
             };
             match *operation {
                 Operation::Add(a, b) => each!(to, [x, y] = [at(a), at(b)], x + y),
@@ -196,6 +184,23 @@ impl Tape {
                 }
             }
         }
+    }
+}
+
+/// Where inputs of a block stand, if not in registers.
+#[derive(Clone, Copy)]
+struct Inputs<'a> {
+    groups: [&'a [&'a [f64]]; 2],
+    start: usize,
+    in_place: bool,
+}
+
+impl<'a> Inputs<'a> {
+    #[inline(always)]
+    fn block<const P: usize>(self, input: usize) -> &'a [Tile; P] {
+        let [first, second] = self.groups;
+        let numbers = if input < first.len() { first[input] } else { second[input - first.len()] };
+        block_at(numbers, self.start)
     }
 }
 
