@@ -18,7 +18,7 @@ const TILE: usize = 16;
 type Tile = [f64; TILE];
 
 /// Tiles of a register, if there are as many numbers.
-const BLOCK: usize = 4;
+const BLOCK: usize = 8;
 
 /// Registers of so many tiles stay in the nearest cache; programs with more do tile by tile.
 const MOST_IN_BLOCKS: usize = 64;
