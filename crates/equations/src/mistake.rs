@@ -36,7 +36,7 @@ pub enum Place {
 pub enum Fault {
     /// Nothing is written.
     Empty,
-    /// The text is too long.
+    /// The text is too long, or all texts of a system together are.
     TooLong {
         /// Its length.
         bytes: usize,
@@ -218,7 +218,7 @@ impl fmt::Display for Fault {
         match self {
             Self::Empty => write!(f, "nothing is written where a formula has to be"),
             Self::TooLong { bytes, limit } => {
-                write!(f, "the formula has {bytes} bytes, but at most {limit} are read")
+                write!(f, "{bytes} bytes are written, but at most {limit} are read")
             }
             Self::TooDeep { limit } => {
                 write!(f, "parentheses, signs and powers are nested more than {limit} deep")

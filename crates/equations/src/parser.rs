@@ -12,7 +12,7 @@ use crate::mistake::{Fault, Mistake, Place, shown};
 use crate::names::{self, Binary, Comparison, Function};
 use crate::token::{Kind, Token, tokens};
 
-/// The longest formula that is read, in bytes.
+/// The longest formula that is read, and the longest of all of a system together, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;
 
 /// How deep parentheses, signs, powers and functions may be nested.

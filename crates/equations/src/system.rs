@@ -2,12 +2,14 @@
 //! so that every name means one thing.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::ops::Range;
 
 use crate::expression::Expression;
 use crate::mistake::{Fault, Mistake, Place};
 use crate::names::{self, PI, TIME};
 use crate::order::in_order;
+use crate::parser::MAX_BYTES;
 use crate::symbol::Symbol;
 
 /// Components that a system can have at the most.
@@ -50,6 +52,13 @@ pub enum Warning {
     Unused(Place),
 }
 
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Unused(place) = self;
+        write!(f, "{place}: nothing uses it")
+    }
+}
+
 /// Equations that can be made a program.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -74,6 +83,7 @@ impl System {
     pub fn read(description: &Description<'_>) -> Result<Self, Mistake> {
         let meanings = Meanings::new(description)?;
         let equations = equations(description)?;
+        check_length(description)?;
         let read = |place: Place, text: &str| {
             let placed = |fault, at| Mistake { place: place.clone(), at, fault };
             let expression =
@@ -142,10 +152,24 @@ impl System {
         &self.warnings
     }
 
-    /// Gives a parameter another value. Whether there is one of that name.
-    pub fn set(&mut self, parameter: &str, value: f64) -> bool {
+    /// Gives a parameter another value.
+    ///
+    /// # Errors
+    /// A [`Mistake`] when there is none of that name, or when the value is not finite.
+    pub fn set(&mut self, parameter: &str, value: f64) -> Result<(), Mistake> {
+        let place = Place::Parameter(parameter.to_owned());
+        let mistake = |fault| Err(Mistake { place, at: None, fault });
+        if !value.is_finite() {
+            return mistake(Fault::NotFinite { value });
+        }
         let known = self.parameters.iter_mut().find(|(name, _)| name == parameter);
-        known.map(|(_, old)| *old = value).is_some()
+        if let Some((_, old)) = known {
+            *old = value;
+            return Ok(());
+        }
+        let known: Box<[String]> = self.parameters.iter().map(|(name, _)| name.clone()).collect();
+        let nearest = names::nearest(parameter, known.iter().map(String::as_str));
+        mistake(Fault::UnknownName { name: parameter.to_owned(), nearest, known })
     }
 
     /// Says what nothing uses, and whether time enters.
@@ -256,6 +280,17 @@ impl<'a> Meanings<'a> {
             }),
         }
     }
+}
+
+/// Refuses more text than is read, so that no program is too large.
+fn check_length(description: &Description<'_>) -> Result<(), Mistake> {
+    let Description { equations, subexpressions, .. } = description;
+    let bytes = equations.iter().chain(subexpressions).map(|(_, text)| text.len()).sum();
+    if bytes <= MAX_BYTES {
+        return Ok(());
+    }
+    let fault = Fault::TooLong { bytes, limit: MAX_BYTES };
+    Err(Mistake { place: Place::System, at: None, fault })
 }
 
 /// Component, name and text of every equation, in the order of components.

@@ -1,5 +1,7 @@
 //! A program as it runs: a straight list of operations on registers, each of which writes the next one.
 
+use std::collections::HashMap;
+
 use crate::builder::{Builder, Step, Value};
 use crate::names::{Comparison, Unary};
 use crate::scalar::Code;
@@ -63,7 +65,7 @@ impl Tape {
     /// What of the operations is needed for some values.
     pub(crate) fn new(builder: &Builder, inputs: usize, outputs: &[Value]) -> Self {
         let steps: Vec<(usize, Step)> = needed(builder, outputs);
-        let mut constants = Constants { from: inputs, values: Vec::new() };
+        let mut constants = Constants { from: inputs, values: Vec::new(), places: HashMap::new() };
         // All constants come before all operations, so they are known first.
         for (_, step) in &steps {
             constants.add_operands(step);
@@ -133,14 +135,18 @@ fn reads(steps: &[(usize, Step)], outputs: &[Value], n_steps: usize) -> Vec<usiz
 struct Constants {
     from: usize,
     values: Vec<f64>,
+    /// Where a constant of these bits is among them.
+    places: HashMap<u64, usize>,
 }
 
 impl Constants {
     fn add(&mut self, value: Value) {
-        if let Value::Constant(constant) = value
-            && self.place(constant).is_none()
-        {
-            self.values.push(constant);
+        if let Value::Constant(constant) = value {
+            let values = &mut self.values;
+            self.places.entry(constant.to_bits()).or_insert_with(|| {
+                values.push(constant);
+                values.len() - 1
+            });
         }
     }
 
@@ -151,18 +157,11 @@ impl Constants {
         }
     }
 
-    fn place(&self, constant: f64) -> Option<usize> {
-        self.values.iter().position(|known| known.to_bits() == constant.to_bits())
-    }
-
     fn register(&self, value: Value, register_of: &[Option<Register>]) -> Register {
         match value {
             Value::Input(input) => input as Register,
             Value::Step(step) => register_of[step].expect("a step comes after its operands"),
-            Value::Constant(constant) => {
-                let place = self.place(constant).expect("constants were collected before");
-                (self.from + place) as Register
-            }
+            Value::Constant(constant) => (self.from + self.places[&constant.to_bits()]) as Register,
         }
     }
 }

@@ -181,6 +181,13 @@ fn seventeen_components_are_refused_and_so_are_sixteen_with_time() {
 }
 
 #[test]
+fn more_text_than_is_read_is_refused_whole() {
+    let half: &'static str = "x + x*x - x/x + 1.5".repeat(2_000).leak();
+    let long = mistake(|d| (d.equations[0].1, d.equations[1].1) = (half, half));
+    check_system(&long, &Place::System, "76003 bytes are written, but at most 65536 are read");
+}
+
+#[test]
 fn names_are_unique_free_and_names() {
     let twice = mistake(|d| d.parameters.push(("x", 1.0)));
     check_system(&twice, &Place::Parameter("x".into()), "used before, by the component `x`");
@@ -231,6 +238,7 @@ fn what_nothing_uses_is_a_warning() {
         Place::Parameter("alpha".into()),
     ];
     assert_eq!(system.warnings(), unused.map(Warning::Unused));
+    assert_eq!(system.warnings()[2].to_string(), "parameter `alpha`: nothing uses it");
 }
 
 #[test]
