@@ -81,6 +81,7 @@ fn figure(plan: &Plan, findings: &Findings) -> Figure {
     match (plan.figure_kind(), &findings.simulated) {
         (FigureKind::Matrices, Some(simulated)) => pairs::matrices(plan, findings, simulated),
         (FigureKind::Regions, Some(simulated)) => regions::regions(plan, findings, simulated),
-        _ => sweep(plan, findings),
+        (FigureKind::Sweep | FigureKind::None, _)
+        | (FigureKind::Matrices | FigureKind::Regions, None) => sweep(plan, findings),
     }
 }

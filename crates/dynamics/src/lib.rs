@@ -55,7 +55,7 @@ pub use node::{Fused, Linearised, LinearisedMut, NodeDynamics};
 pub use observables::{Errors, Observables, pair_index};
 pub use observer::{Next, Observer, Snapshot, Start};
 pub use oscillator::Oscillator;
-pub use oscillators::{HindmarshRose, Lorenz, Model, Rossler};
+pub use oscillators::*;
 pub use progress::{Progress, QUIET};
 pub use scalar::{Dual, Lanes, Scalar};
 pub use schedule::Schedule;

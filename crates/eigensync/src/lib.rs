@@ -4,7 +4,8 @@
 //!
 //! # A tour
 //!
-//! A network comes from a file in any of the [`graph::formats`], or from links. Here, six nodes with two
+//! A network comes from a file in any of the [`graph::formats`], or from links
+//! ([`graph::Network::undirected`]). Here, six nodes with two
 //! pairs that are each other's mirror images:
 //!
 //! ```
@@ -33,9 +34,10 @@
 //! let node = Node { dynamics: lorenz, coupling: Coupling::pair(0, 1) };
 //! let mut study = Study::new(network, Normalization::Laplacian, node);
 //! study.sweep = Some(Sweep::over(vec![3.0, 4.5]));
-//! # study.msf.times.average = 500.0;
-//! # study.msf.refinement.relative_error = 0.01;
-//! # study.sweep.as_mut().unwrap().schedule.average = 100.0;
+//! // Short times: with the default ones, and a release build, it takes half a minute.
+//! study.msf.times.average = 500.0;
+//! study.msf.refinement.relative_error = 0.01;
+//! study.sweep.as_mut().unwrap().schedule.average = 100.0;
 //! let found = find(&study, &())?;
 //!
 //! // Where Λ(σ) = 0, and from there where each mode loses stability.
@@ -161,7 +163,8 @@
 //! # Keeping finished work
 //!
 //! Whoever keeps finished work implements [`Compute`], through which every long piece goes, and calls
-//! [`find_by`].
+//! [`find_by`]. `examples/` has whole programs: the six nodes, an oscillator of one's own, a study that is
+//! watched.
 
 mod agreement;
 mod bound;

@@ -388,6 +388,6 @@ fn drawn_kind(study: &Study, asked: FigureKind) -> FigureKind {
     let has_pairs = study.sweep.as_ref().is_some_and(|sweep| sweep.observables.pairs);
     match asked {
         FigureKind::Matrices if !has_pairs => FigureKind::Sweep,
-        kind => kind,
+        FigureKind::Sweep | FigureKind::Matrices | FigureKind::Regions | FigureKind::None => asked,
     }
 }

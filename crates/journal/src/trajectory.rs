@@ -43,6 +43,7 @@ pub struct Trajectory {
     is_whole: bool,
     gathered: Chunk,
     failed: Option<Error>,
+    has_failed: bool,
 }
 
 impl Trajectory {
@@ -51,7 +52,7 @@ impl Trajectory {
         let path = folder.join(format!("{PREFIX}{key}"));
         let (n_states, is_whole) = go_through(&path, key, |_, _| Ok(())).unwrap_or_default();
         let gathered = Chunk { first: n_states, ..Chunk::default() };
-        Self { path, key: *key, n_states, is_whole, gathered, failed: None }
+        Self { path, key: *key, n_states, is_whole, gathered, failed: None, has_failed: false }
     }
 
     /// How many states are there, from the first one on.
@@ -77,17 +78,18 @@ impl Trajectory {
         }
     }
 
-    /// What kept states from being written.
-    pub fn failed(&self) -> Option<&Error> {
-        self.failed.as_ref()
+    /// What kept states from being written, once.
+    pub fn take_failure(&mut self) -> Option<Error> {
+        self.failed.take()
     }
 
     /// Writes what is gathered.
     pub fn write(&mut self) {
         let next = Chunk { first: self.n_states, ..Chunk::default() };
         let chunk = std::mem::replace(&mut self.gathered, next);
-        if self.failed.is_none() && (chunk.is_last || !chunk.times.is_empty()) {
+        if !self.has_failed && (chunk.is_last || !chunk.times.is_empty()) {
             self.failed = append(&self.path, &self.key, &chunk).err();
+            self.has_failed = self.failed.is_some();
         }
     }
 
@@ -96,7 +98,7 @@ impl Trajectory {
         if !self.is_whole {
             self.gathered.is_last = true;
             self.write();
-            self.is_whole = self.failed.is_none();
+            self.is_whole = !self.has_failed;
         }
     }
 
@@ -105,9 +107,6 @@ impl Trajectory {
     /// # Errors
     /// Where they could not be written, or read again, or whoever takes them fails.
     pub fn read(&self, mut each: impl FnMut(f64, &[f64]) -> Result<()>) -> Result<()> {
-        if let Some(error) = &self.failed {
-            return Err(Error::new(error.kind(), error.to_string()));
-        }
         match go_through(&self.path, &self.key, &mut each)? {
             (n_states, true) if n_states == self.n_states => Ok(()),
             _ => Err(Error::new(ErrorKind::InvalidData, "states that were written are not there")),

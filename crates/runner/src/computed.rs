@@ -1,9 +1,11 @@
 //! What a run computes at length: the curve Λ(σ), the spectrum, the replicas of the sweep (`sweep`).
 //! Each is taken from the journal if an earlier run has left it there, and kept in it otherwise.
 
+mod failure;
 mod sweep;
 mod trajectories;
 
+pub use failure::Failure;
 pub use sweep::recorded;
 
 use std::cell::RefCell;
@@ -41,10 +43,10 @@ impl<'a> Kept<'a> {
 }
 
 impl Compute for Kept<'_> {
-    type Error = Error;
+    type Error = Failure;
 
     /// Computed unless an earlier plan, or an earlier run, had the same node and request.
-    fn curve(&self, study: &Study) -> Result<MasterStability, Error> {
+    fn curve(&self, study: &Study) -> Result<MasterStability, Failure> {
         let &Work { plan, journal, stages } = self.work;
         let mut curves = self.curves.borrow_mut();
         let same = |known: &&(Node, msf::Request, MasterStability)| {
@@ -71,7 +73,7 @@ impl Compute for Kept<'_> {
     }
 
     /// Kept where writing it costs little beside computing it again.
-    fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Error> {
+    fn spectrum(&self, study: &Study, request: &spectra::Request) -> Result<Spectrum, Failure> {
         let &Work { journal, stages, .. } = self.work;
         let key = journal.key(Kind::Spectrum, &(self.work.matrix(), request));
         if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
@@ -89,8 +91,8 @@ impl Compute for Kept<'_> {
         Ok(spectrum)
     }
 
-    fn runs(&self, _study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Error> {
-        sweep::runs(self.work, sweep).map_err(Error::Sweep)
+    fn runs(&self, _study: &Study, sweep: &Sweep) -> Result<Vec<Run>, Failure> {
+        sweep::runs(self.work, sweep)
     }
 
     fn step_effects(
@@ -98,8 +100,8 @@ impl Compute for Kept<'_> {
         _study: &Study,
         sweep: &Sweep,
         simulated: &Simulated,
-    ) -> Result<Vec<StepEffect>, Error> {
-        sweep::effects_of_step(self.work, sweep, simulated).map_err(Error::Sweep)
+    ) -> Result<Vec<StepEffect>, Failure> {
+        Ok(sweep::effects_of_step(self.work, sweep, simulated).map_err(Error::Sweep)?)
     }
 
     fn stage<T>(

@@ -7,7 +7,7 @@ use msf::{MasterStability, MsfError};
 
 use crate::Work;
 use crate::check;
-use crate::computed::{Curves, Kept};
+use crate::computed::{Curves, Failure, Kept};
 use crate::warning::kept;
 use experiment::Plan;
 use user::{Problem, Result};
@@ -44,7 +44,17 @@ pub fn curve(work: &Work<'_>) -> Result<(MasterStability, Vec<Warning>)> {
 }
 
 /// What kept a study from being finished, with the file and the way out.
-fn failed(plan: &Plan, error: &Error) -> Problem {
+fn failed(plan: &Plan, failure: &Failure) -> Problem {
+    let error = match failure {
+        Failure::Study(error) => error,
+        Failure::States(error) => {
+            let hint =
+                "make room, or ask for fewer states in [sweep.series]; what was finished is kept";
+            return Problem::from_error("the states on the way cannot be written", error)
+                .in_file(&plan.file)
+                .hint(hint);
+        }
+    };
     let problem = Problem::new(error.to_string()).in_file(&plan.file);
     match error {
         Error::Overflow { sigma } => {

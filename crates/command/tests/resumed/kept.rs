@@ -211,3 +211,33 @@ fn series_that_are_asked_for_later_have_their_replicas_run_again() {
     run(&place, &[]);
     assert!(place.path("results/tiny/series_epsilon_1_seed_1.csv").exists());
 }
+
+#[test]
+fn states_that_cannot_be_written_stop_the_run_and_are_simulated_again() {
+    let keys = "\n[sweep.series]\nnodes = [1, 2, 3, 4]\nfrom = 0\n";
+    let whole = with(&forty().and(keys));
+    run(&whole, &[]);
+    let place = with(&forty().and(keys));
+    // Room for the journal, and not for ten thousand states of a replica.
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f 400; exec {} run tiny.toml --threads 1",
+        assert_cmd::cargo::cargo_bin!("eigensync").display()
+    );
+    let output = Command::new("sh")
+        .args(["-c", &limited])
+        .current_dir(place.path("."))
+        .output()
+        .expect("there is a shell");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("tiny.toml: the states on the way cannot be written"), "{said}");
+    assert!(said.contains("ask for fewer states in [sweep.series]"), "{said}");
+    run(&place, &[]);
+    for name in whole.names("results/tiny") {
+        if name.starts_with("series_") {
+            let [expected, resumed] =
+                [&whole, &place].map(|place| place.read(&format!("results/tiny/{name}")));
+            assert!(expected == resumed, "{name} differs");
+        }
+    }
+}

@@ -85,10 +85,12 @@ impl Checker<'_> {
         let regions = self.experiment.regions.is_some();
         let missing = match kind {
             FigureKind::Sweep | FigureKind::None => None,
-            _ if self.experiment.sweep.is_none() => Some("a [sweep]"),
+            FigureKind::Matrices | FigureKind::Regions if self.experiment.sweep.is_none() => {
+                Some("a [sweep]")
+            }
             FigureKind::Regions if !regions => Some("the thresholds of [regions]"),
             FigureKind::Regions if network.positions().is_none() => Some("positions of the nodes"),
-            _ => None,
+            FigureKind::Matrices | FigureKind::Regions => None,
         };
         match missing {
             None => Ok(()),

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use dynamics::{Model, NodeDynamics, Replica, Schedule, Series};
+use dynamics::{Model, NodeDynamics, Replica, Series};
 use eigensync::Sweep;
 use eigensync::numbers::plain;
 use graph::{Names, Network};
@@ -54,25 +54,43 @@ impl Checker<'_> {
         let mut seen = HashSet::new();
         if let Some(&twice) = nodes.iter().find(|&&node| !seen.insert(node)) {
             let label = &network.labels()[twice];
-            return Err(self.problem(key, format!("has node \"{label}\" twice")));
+            let message = format!("has node \"{label}\" twice, by its label or by its group");
+            return Err(self.problem(key, message).hint("name each node once"));
         }
-        let components = spec.components.as_ref().map(|components| {
-            let key = "sweep.series.components";
-            components.iter().map(|name| self.component(key, name, model)).collect()
-        });
-        self.positive("sweep.series.every", spec.every as f64)?;
-        self.positive("sweep.series.seeds", spec.seeds as f64)?;
+        for (key, count) in [("sweep.series.every", spec.every), ("sweep.series.seeds", spec.seeds)]
+        {
+            if count == 0 {
+                return Err(self.problem(key, "is 0, but must be 1 or more"));
+            }
+        }
         let time = |key: &str, time: Option<f64>| {
             time.map(|time| self.not_negative(key, time).map(|()| time / self.shortened))
                 .transpose()
         };
         Ok(Series {
             nodes,
-            components: components.transpose()?,
+            components: self.series_components(spec, model)?,
             every: spec.every,
             from: time("sweep.series.from", spec.from)?,
             to: time("sweep.series.to", spec.to)?,
         })
+    }
+
+    fn series_components(&self, spec: &SeriesSpec, model: Model) -> Result<Option<Vec<usize>>> {
+        let key = "sweep.series.components";
+        let Some(names) = &spec.components else { return Ok(None) };
+        if names.is_empty() {
+            return Err(self.problem(key, "is empty").hint("leave it out for all components"));
+        }
+        let mut components = Vec::new();
+        for name in names {
+            let component = self.component(key, name, model)?;
+            if components.contains(&component) {
+                return Err(self.problem(key, format!("has \"{name}\" more than once")));
+            }
+            components.push(component);
+        }
+        Ok(Some(components))
     }
 
     /// Of which replicas of the sweep states are written.
@@ -94,8 +112,14 @@ impl Checker<'_> {
             sweep.seeds[..seeds].iter().map(move |&seed| Replica { epsilon, seed })
         };
         let n_states = series.n_records(&sweep.schedule);
+        let samples = sweep.schedule.samples() as f64 * sweep.schedule.sampling_interval();
+        let end = sweep.schedule.transient + samples;
+        if let Some(to) = series.to.filter(|to| *to > end * (1.0 + 1e-9)) {
+            let message = format!("is {}, but a run ends at {}", plain(to), plain(end));
+            return Err(self.problem("sweep.series.to", message).hint("leave it out for the end"));
+        }
         if n_states == 0 {
-            return Err(self.no_states(&sweep.schedule));
+            return Err(self.no_states([sweep.schedule.transient, end]));
         }
         let recorded = Recorded {
             replicas: epsilon.iter().flat_map(of).collect(),
@@ -117,10 +141,12 @@ impl Checker<'_> {
         Ok(Some(recorded))
     }
 
-    fn no_states(&self, schedule: &Schedule) -> user::Problem {
-        let end = plain(schedule.transient + schedule.average);
-        let message =
-            format!("asks for no state: `from` is after `to`, or after the end of a run at {end}");
+    fn no_states(&self, times: [f64; 2]) -> user::Problem {
+        let [transient, end] = times.map(plain);
+        let message = format!(
+            "asks for no state: `from`, which is {transient} where it is left out, comes after `to` or \
+             after the end of a run at {end}"
+        );
         self.problem("sweep.series", message)
             .hint("leave out `from` and `to` for all averaged states")
     }
@@ -130,6 +156,11 @@ impl Checker<'_> {
         let Some(asked) = &spec.epsilon else { return Ok(sweep.epsilon.clone()) };
         if asked.is_empty() {
             return Err(self.problem(key, "is empty").hint("leave it out for all points"));
+        }
+        let is_again = |at: &usize| asked[..*at].contains(&asked[*at]);
+        if let Some(again) = (0..asked.len()).find(is_again) {
+            let message = format!("contains {} more than once", plain(asked[again]));
+            return Err(self.problem(key, message));
         }
         if let Some(epsilon) = asked.iter().find(|epsilon| !sweep.epsilon.contains(epsilon)) {
             return Err(self.no_point(key, *epsilon, &sweep.epsilon));

@@ -65,7 +65,7 @@ impl Checker<'_> {
             SolverChoice::Dense => true,
             // Half of all modes and more are found by the dense solver, too.
             SolverChoice::Auto => modes > n_nodes / 2,
-            _ => false,
+            SolverChoice::Arpack | SolverChoice::Chebyshev | SolverChoice::ShiftInvert => false,
         };
         if dense && n_nodes > DENSE_MOST {
             let message = format!(

@@ -1,7 +1,7 @@
 //! The replicas of a sweep: those that the journal has are taken over, those of which it has a state go
 //! on from it, and every other begins at its initial state. Which of the three, no bit depends on.
 
-use eigensync::{Probe, Simulated, StepEffect, Sweep};
+use eigensync::{Error, Probe, Simulated, StepEffect, Sweep};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -13,6 +13,7 @@ use dynamics::{
 use crate::Work;
 use journal::{Journal, Key, Kind, Trajectory};
 
+use super::failure::Failure;
 use super::trajectories::{Trajectories, trajectory};
 
 /// How long a batch runs before it leaves its states, and between one time and the next: what a kill
@@ -20,7 +21,7 @@ use super::trajectories::{Trajectories, trajectory};
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_secs(60);
 
 /// All replicas of the sweep of a plan.
-pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
+pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, Failure> {
     let &Work { plan, journal, stages } = work;
     let simulation = plan.study.simulation(sweep);
     let replicas = sweep.replicas();
@@ -46,7 +47,11 @@ pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, DynamicsError> {
         let following = Following::new(journal, replicas, &trajectories, progress);
         simulation.run_observed(starts, &following)
     });
-    for (at, run) in left.into_iter().zip(ran?) {
+    if let Some(error) = trajectories.failure() {
+        return Err(Failure::States(error));
+    }
+    let ran = ran.map_err(|error| Failure::Study(Error::Sweep(error)))?;
+    for (at, run) in left.into_iter().zip(ran) {
         outcomes[at] = Some(run.outcome);
     }
     let run = |(replica, outcome): (Replica, Option<Outcome>)| Run {
@@ -154,6 +159,9 @@ impl<'a> Following<'a> {
 impl Observer for Following<'_> {
     fn advanced(&self, replicas: &[usize], steps: u64) -> Next {
         let wants_to_stop = (self.progress)(steps).is_break();
+        if self.trajectories.have_failed() {
+            return Next::Stop;
+        }
         let Batch { samples, looked } = &self.batches[replicas[0]];
         if wants_to_stop {
             // One that has just begun has nothing to leave.
@@ -177,8 +185,10 @@ impl Observer for Following<'_> {
 
     fn finished(&self, replica: usize, outcome: &Outcome) {
         let (at, key) = &self.replicas[replica];
-        self.trajectories.finish(*at);
-        self.journal.keep(Kind::Replica, key, outcome);
+        // One whose states are missing is as one that has not run.
+        if self.trajectories.finish(*at) {
+            self.journal.keep(Kind::Replica, key, outcome);
+        }
         self.journal.drop_snapshot(key);
     }
 

@@ -6,7 +6,6 @@ use std::sync::{Mutex, PoisonError};
 use dynamics::{Record, Replica, Schedule, Series, Snapshot};
 use eigensync::Sweep;
 use journal::{Key, Kind, Trajectory};
-use user::Watch;
 
 use crate::Work;
 
@@ -15,7 +14,8 @@ pub struct Trajectories<'a> {
     of: Vec<Option<Mutex<Trajectory>>>,
     series: Option<&'a Series>,
     schedule: Schedule,
-    watch: &'a dyn Watch,
+    /// What first kept states from being written: from then on nothing is worth the time.
+    failed: Mutex<Option<std::io::Error>>,
 }
 
 impl<'a> Trajectories<'a> {
@@ -27,7 +27,7 @@ impl<'a> Trajectories<'a> {
             of: of.collect(),
             series: sweep.series.as_ref(),
             schedule: sweep.schedule,
-            watch: &**work.stages.watch(),
+            failed: Mutex::default(),
         }
     }
 
@@ -36,7 +36,7 @@ impl<'a> Trajectories<'a> {
     pub fn none(n_replicas: usize) -> Self {
         let schedule = Schedule { step: 0.01, transient: 0.0, average: 1.0, stride: 1 };
         let of = (0..n_replicas).map(|_| None).collect();
-        Self { of, series: None, schedule, watch: &() }
+        Self { of, series: None, schedule, failed: Mutex::default() }
     }
 
     /// Whether all that is asked for of a replica is there.
@@ -61,19 +61,33 @@ impl<'a> Trajectories<'a> {
         self.with(replica, Trajectory::write);
     }
 
-    /// A replica has ended.
-    pub fn finish(&self, replica: usize) {
-        self.with(replica, |trajectory| {
+    /// A replica has ended; whether all its states are there.
+    pub fn finish(&self, replica: usize) -> bool {
+        let is_whole = self.with(replica, |trajectory| {
             trajectory.finish();
-            if let Some(error) = trajectory.failed() {
-                self.watch.warned(&format!("states on the way cannot be kept: {error}"));
-            }
+            trajectory.is_whole()
         });
+        is_whole.unwrap_or(true)
+    }
+
+    /// Whether states could not be written.
+    pub fn have_failed(&self) -> bool {
+        self.failed.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+    }
+
+    /// Why they could not, if they could not.
+    pub fn failure(self) -> Option<std::io::Error> {
+        self.failed.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn with<T>(&self, replica: usize, work: impl FnOnce(&mut Trajectory) -> T) -> Option<T> {
         let trajectory = self.of[replica].as_ref()?;
-        Some(work(&mut trajectory.lock().unwrap_or_else(PoisonError::into_inner)))
+        let mut trajectory = trajectory.lock().unwrap_or_else(PoisonError::into_inner);
+        let result = work(&mut trajectory);
+        if let Some(error) = trajectory.take_failure() {
+            self.failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        }
+        Some(result)
     }
 }
 

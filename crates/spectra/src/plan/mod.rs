@@ -50,7 +50,10 @@ impl Request {
         let scale = scale(w)?;
         let relative_bound = match choice {
             SolverChoice::Dense => self.tolerance.max(1e-15 * w.n_nodes() as f64),
-            _ => self.tolerance,
+            SolverChoice::Auto
+            | SolverChoice::Arpack
+            | SolverChoice::Chebyshev
+            | SolverChoice::ShiftInvert => self.tolerance,
         };
         let residual_bound = relative_bound * scale;
         let grouping = grouping::grouping_tolerance(scale, residual_bound);

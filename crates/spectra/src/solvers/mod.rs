@@ -51,7 +51,10 @@ pub(crate) fn leading(
         SolverChoice::Dense => {
             Ok((dense::leading(w.symmetric(), plan)?, Solver::Dense, Verification::Dense))
         }
-        _ => by_iteration(w, plan, progress),
+        SolverChoice::Auto
+        | SolverChoice::Arpack
+        | SolverChoice::Chebyshev
+        | SolverChoice::ShiftInvert => by_iteration(w, plan, progress),
     }
 }
 
@@ -63,7 +66,10 @@ fn by_iteration(
 ) -> Result<(Found, Solver, Verification), SpectraError> {
     let most_fill = match plan.choice {
         SolverChoice::ShiftInvert => f64::INFINITY,
-        _ => CHEAP_FILL * w.symmetric().nnz() as f64,
+        SolverChoice::Dense
+        | SolverChoice::Auto
+        | SolverChoice::Arpack
+        | SolverChoice::Chebyshev => CHEAP_FILL * w.symmetric().nnz() as f64,
     };
     let symbolic = || Symbolic::within_budget(w.symmetric(), most_fill);
     let (symbolic, links) = rayon::join(symbolic, || Links::new(w));
@@ -88,7 +94,10 @@ fn by_iteration(
             shift_invert_lanczos::Search::new(w, plan, (symbolic, grouping), random, progress)?
                 .run(&verifier)
         })?,
-        _ => rayon::scope(|_| {
+        (Solver::Dense, _) | (Solver::ShiftInvert, None) => {
+            unreachable!("nothing chooses these here")
+        }
+        (Solver::Chebyshev, _) => rayon::scope(|_| {
             let density = SpectralDensity::new(&links, plan.scale, &mut random)?;
             verifier.low = density.low;
             let first_guess = density.exceeded_by(4 * (plan.wanted.at_least() + 4));
