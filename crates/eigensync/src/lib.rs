@@ -5,8 +5,7 @@
 //! # A tour
 //!
 //! A network comes from a file in any of the [`graph::formats`], or from links
-//! ([`graph::Network::undirected`]). Here, six nodes with two
-//! pairs that are each other's mirror images:
+//! ([`graph::Network::undirected`]). Here, six nodes with two pairs that are each other's mirror images:
 //!
 //! ```
 //! use eigensync::graph::formats::edge_list;
@@ -163,8 +162,8 @@
 //! # Keeping finished work
 //!
 //! Whoever keeps finished work implements [`Compute`], through which every long piece goes, and calls
-//! [`find_by`]. `examples/` has whole programs: the six nodes, an oscillator of one's own, a study that is
-//! watched.
+//! [`find_by`]. `examples/` has whole programs: the six nodes, an oscillator of one's own, a study that
+//! is watched.
 
 mod agreement;
 mod bound;
