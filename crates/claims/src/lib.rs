@@ -1,7 +1,7 @@
 //! Claims: what a source says, what was found, and the verdict.
 //!
-//! A claim is written as a [`ClaimSpec`] about one of the [`QUANTITIES`], [`check`]ed against the study
-//! into a [`Claim`] before anything is computed, and [`judge`]d by the findings into a [`Judged`]. All
+//! A claim is written as a [`ClaimSpec`] about one of the [`QUANTITIES`], [`check`](fn@check)ed against the study
+//! into a [`Claim`] before anything is computed, and [`judge`](fn@judge)d by the findings into a [`Judged`]. All
 //! that there is to a quantity stands in its entry of [`QUANTITIES`]: its name and meaning, what singles
 //! out one instance of it, what it follows from, and how it is obtained.
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::whole;
 use crate::{DynamicsError, Schedule};
 
-/// Which states a simulation hands out to its [`Observer`]. Times are model time, rounded to the
+/// Which states a simulation hands out to its [`crate::Observer`]. Times are model time, rounded to the
 /// nearest sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Series {

@@ -1,7 +1,7 @@
 //! Experiment files, and the plans that they make.
 //!
 //! [`spec`] is what a file says, [`load`] reads it with errors that name line, column and key, and
-//! [`plan`] makes of it what will be done, so that nothing can go wrong later for a reason that could
+//! [`plan`](fn@plan) makes of it what will be done, so that nothing can go wrong later for a reason that could
 //! have been seen now. Nothing here computes more than a look at what it will cost.
 
 mod hashes;

@@ -1,5 +1,5 @@
 //! What an experiment file says: the keys, their units and their defaults. Nothing is checked here
-//! beyond types and names; [`crate::plan`] turns a specification into what will be done.
+//! beyond types and names; [`crate::plan`](fn@crate::plan) turns a specification into what will be done.
 //!
 //! All times are in model time units, all coupling strengths in units of the coupling matrix.
 
