@@ -178,6 +178,18 @@ impl Journal {
         Trajectory::open(&self.folder, key)
     }
 
+    /// Goes through all states on the way of a replica that has ended, each with its time.
+    ///
+    /// # Errors
+    /// Where they are not all there, or cannot be read, or whoever takes them fails.
+    pub fn states(
+        &self,
+        key: &Key,
+        each: impl FnMut(f64, &[f64]) -> std::io::Result<()>,
+    ) -> std::io::Result<()> {
+        trajectory::read(&self.folder, key, each)
+    }
+
     /// Keeps the state of a replica that is still running.
     pub fn keep_snapshot(&self, key: &Key, snapshot: &dynamics::Snapshot) {
         match self.snapshots.keep(key, snapshot) {

@@ -42,17 +42,17 @@ pub struct Trajectory {
     n_states: u64,
     is_whole: bool,
     gathered: Chunk,
-    failed: Option<Error>,
+    /// Whether states could not be written: whatever comes after them is not joined to the others.
     has_failed: bool,
 }
 
 impl Trajectory {
     /// Goes on with what an earlier run has left, if anything.
     pub fn open(folder: &Path, key: &Key) -> Self {
-        let path = folder.join(format!("{PREFIX}{key}"));
+        let path = file(folder, key);
         let (n_states, is_whole) = go_through(&path, key, |_, _| Ok(())).unwrap_or_default();
         let gathered = Chunk { first: n_states, ..Chunk::default() };
-        Self { path, key: *key, n_states, is_whole, gathered, failed: None, has_failed: false }
+        Self { path, key: *key, n_states, is_whole, gathered, has_failed: false }
     }
 
     /// How many states are there, from the first one on.
@@ -66,52 +66,61 @@ impl Trajectory {
     }
 
     /// Adds the state of this number, unless it is there; states come in their order.
-    pub fn add(&mut self, number: u64, time: f64, state: &[f64]) {
+    ///
+    /// # Errors
+    /// Where what was gathered cannot be written.
+    pub fn add(&mut self, number: u64, time: f64, state: &[f64]) -> Result<()> {
         if number < self.n_states {
-            return;
+            return Ok(());
         }
         self.gathered.times.push(time);
         self.gathered.states.extend(state);
         self.n_states = number + 1;
-        if self.gathered.states.len() >= GATHERED {
-            self.write();
-        }
-    }
-
-    /// What kept states from being written, once.
-    pub fn take_failure(&mut self) -> Option<Error> {
-        self.failed.take()
+        if self.gathered.states.len() >= GATHERED { self.write() } else { Ok(()) }
     }
 
     /// Writes what is gathered.
-    pub fn write(&mut self) {
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn write(&mut self) -> Result<()> {
         let next = Chunk { first: self.n_states, ..Chunk::default() };
         let chunk = std::mem::replace(&mut self.gathered, next);
-        if !self.has_failed && (chunk.is_last || !chunk.times.is_empty()) {
-            self.failed = append(&self.path, &self.key, &chunk).err();
-            self.has_failed = self.failed.is_some();
+        if chunk.times.is_empty() && !chunk.is_last {
+            return Ok(());
         }
+        let written = append(&self.path, &self.key, &chunk);
+        self.has_failed |= written.is_err();
+        written
     }
 
     /// The replica has ended: these were all.
-    pub fn finish(&mut self) {
-        if !self.is_whole {
-            self.gathered.is_last = true;
-            self.write();
-            self.is_whole = !self.has_failed;
-        }
-    }
-
-    /// Goes through all states, each with its time.
     ///
     /// # Errors
-    /// Where they could not be written, or read again, or whoever takes them fails.
-    pub fn read(&self, mut each: impl FnMut(f64, &[f64]) -> Result<()>) -> Result<()> {
-        match go_through(&self.path, &self.key, &mut each)? {
-            (n_states, true) if n_states == self.n_states => Ok(()),
-            _ => Err(Error::new(ErrorKind::InvalidData, "states that were written are not there")),
+    /// Where they cannot be written.
+    pub fn finish(&mut self) -> Result<()> {
+        if !self.is_whole {
+            self.gathered.is_last = true;
+            self.write()?;
+            self.is_whole = !self.has_failed;
         }
+        Ok(())
     }
+}
+
+/// Goes through all states of a replica that has ended, each with its time.
+///
+/// # Errors
+/// Where they are not all there, or cannot be read, or whoever takes them fails.
+pub fn read(folder: &Path, key: &Key, each: impl FnMut(f64, &[f64]) -> Result<()>) -> Result<()> {
+    match go_through(&file(folder, key), key, each)? {
+        (_, true) => Ok(()),
+        (_, false) => Err(Error::new(ErrorKind::InvalidData, "not all states are there")),
+    }
+}
+
+fn file(folder: &Path, key: &Key) -> PathBuf {
+    folder.join(format!("{PREFIX}{key}"))
 }
 
 /// Removes what an earlier run has left.
@@ -178,19 +187,17 @@ mod tests {
     fn add(trajectory: &mut Trajectory, numbers: std::ops::Range<u64>) {
         for number in numbers {
             let (time, state) = state(number);
-            trajectory.add(number, time, &state);
+            trajectory.add(number, time, &state).unwrap();
         }
     }
 
-    fn read(trajectory: &Trajectory) -> Vec<(f64, [f64; 2])> {
+    fn all_of(folder: &Path) -> Result<Vec<(f64, [f64; 2])>> {
         let mut all = Vec::new();
-        trajectory
-            .read(|time, state| {
-                all.push((time, [state[0], state[1]]));
-                Ok(())
-            })
-            .unwrap();
-        all
+        read(folder, &key(), |time, state| {
+            all.push((time, [state[0], state[1]]));
+            Ok(())
+        })?;
+        Ok(all)
     }
 
     #[test]
@@ -199,18 +206,17 @@ mod tests {
         let all: Vec<_> = (0..300).map(state).collect();
         let mut first = Trajectory::open(folder.path(), &key());
         add(&mut first, 0..100);
-        first.write();
+        first.write().unwrap();
         add(&mut first, 100..170);
         // Killed with seventy states gathered: they are lost, and told again from the last snapshot on.
         drop(first);
         let mut second = Trajectory::open(folder.path(), &key());
         assert_eq!((second.n_states(), second.is_whole()), (100, false));
         add(&mut second, 60..300);
-        second.finish();
-        assert_eq!(read(&second), all);
+        second.finish().unwrap();
+        assert_eq!(all_of(folder.path()).unwrap(), all);
         let third = Trajectory::open(folder.path(), &key());
         assert_eq!((third.n_states(), third.is_whole()), (300, true));
-        assert_eq!(read(&third), all);
     }
 
     #[test]
@@ -219,18 +225,18 @@ mod tests {
         let mut first = Trajectory::open(folder.path(), &key());
         for part in [0..10, 10..20, 20..30] {
             add(&mut first, part);
-            first.write();
+            first.write().unwrap();
         }
-        first.finish();
+        first.finish().unwrap();
         let mut bytes = fs::read(&first.path).unwrap();
         let middle = bytes.len() / 2;
         bytes[middle] ^= 1;
         fs::write(&first.path, bytes).unwrap();
-        assert!(first.read(|_, _| Ok(())).is_err(), "what is missing is not passed over");
+        assert!(all_of(folder.path()).is_err(), "what is missing is not passed over");
         let mut second = Trajectory::open(folder.path(), &key());
         assert_eq!((second.n_states(), second.is_whole()), (10, false));
         add(&mut second, 0..30);
-        second.finish();
-        assert_eq!(read(&second), (0..30).map(state).collect::<Vec<_>>());
+        second.finish().unwrap();
+        assert_eq!(all_of(folder.path()).unwrap(), (0..30).map(state).collect::<Vec<_>>());
     }
 }

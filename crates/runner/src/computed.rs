@@ -6,7 +6,7 @@ mod sweep;
 mod trajectories;
 
 pub use failure::Failure;
-pub use sweep::recorded;
+pub use sweep::states_of;
 
 use std::cell::RefCell;
 use std::time::Instant;

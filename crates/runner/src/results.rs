@@ -166,13 +166,14 @@ fn write_sweep(folder: &Folder, plan: &Plan, simulated: &Simulated) -> Result<()
 /// The states on the way that were asked for: of each replica a table with a row for each time.
 fn write_series(folder: &Folder, work: &Work<'_>, sweep: &Sweep) -> Result<()> {
     let Some(recorded) = &work.plan.recorded else { return Ok(()) };
-    for (replica, trajectory) in computed::recorded(work, sweep) {
+    let states = computed::states_of(work, sweep, &recorded.replicas);
+    for (replica, states) in recorded.replicas.iter().zip(&states) {
         let name = format!("series_epsilon_{}_seed_{}.csv", plain(replica.epsilon), replica.seed);
         folder.write_through(&name, |out| {
             let mut table = csv::Writer::from_writer(out);
             table.write_field("time")?;
             table.write_record(&recorded.columns)?;
-            trajectory.read(|time, state| {
+            work.journal.states(states, |time, state| {
                 table.write_field(number(time))?;
                 table.write_record(state.iter().map(|&x| number(x)))?;
                 Ok(())

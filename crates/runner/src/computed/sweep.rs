@@ -11,10 +11,10 @@ use dynamics::{
 };
 
 use crate::Work;
-use journal::{Journal, Key, Kind, Trajectory};
+use journal::{Journal, Key, Kind};
 
 use super::failure::Failure;
-use super::trajectories::{Trajectories, trajectory};
+use super::trajectories::{Trajectories, states};
 
 /// How long a batch runs before it leaves its states, and between one time and the next: what a kill
 /// costs, and long against the time that writing takes.
@@ -61,12 +61,9 @@ pub fn runs(work: &Work<'_>, sweep: &Sweep) -> Result<Vec<Run>, Failure> {
     Ok(replicas.into_iter().zip(outcomes).map(run).collect())
 }
 
-/// The replicas of a sweep whose states on the way were asked for, with these.
-pub fn recorded(work: &Work<'_>, sweep: &Sweep) -> Vec<(Replica, Trajectory)> {
-    let replicas = work.plan.recorded.as_ref().map_or(&[][..], |recorded| &recorded.replicas);
-    let keys = keys(work, sweep, replicas);
-    let of = |(&replica, key)| Some((replica, trajectory(work, sweep, replica, key)?));
-    replicas.iter().zip(&keys).filter_map(of).collect()
+/// What the states on the way of some replicas are known by.
+pub fn states_of(work: &Work<'_>, sweep: &Sweep, replicas: &[Replica]) -> Vec<Key> {
+    keys(work, sweep, replicas).iter().map(|key| states(work, sweep, key)).collect()
 }
 
 /// What replicas of a sweep are known by.

@@ -1,9 +1,10 @@
 //! The states on the way of those replicas of a sweep of which they are asked for: kept as they come, in
 //! files that a run which goes on continues.
 
-use std::sync::{Mutex, PoisonError};
+use std::io::{Error, Result};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
-use dynamics::{Record, Replica, Schedule, Series, Snapshot};
+use dynamics::{Record, Schedule, Series, Snapshot};
 use eigensync::Sweep;
 use journal::{Key, Kind, Trajectory};
 
@@ -15,19 +16,24 @@ pub struct Trajectories<'a> {
     series: Option<&'a Series>,
     schedule: Schedule,
     /// What first kept states from being written: from then on nothing is worth the time.
-    failed: Mutex<Option<std::io::Error>>,
+    failed: OnceLock<Error>,
 }
 
 impl<'a> Trajectories<'a> {
     /// Those that an earlier run has left, and room for the others. `keys` are those of the replicas.
     pub fn of(work: &Work<'a>, sweep: &'a Sweep, keys: &[Key]) -> Self {
-        let of = sweep.replicas().into_iter().zip(keys);
-        let of = of.map(|(replica, key)| trajectory(work, sweep, replica, key).map(Mutex::new));
+        let recorded = work.plan.recorded.iter().flat_map(|recorded| &recorded.replicas);
+        // Both stand in one order.
+        let mut asked = recorded.peekable();
+        let of = sweep.replicas().into_iter().zip(keys).map(|(replica, key)| {
+            asked.next_if(|asked| **asked == replica)?;
+            Some(Mutex::new(work.journal.trajectory(&states(work, sweep, key))))
+        });
         Self {
             of: of.collect(),
             series: sweep.series.as_ref(),
             schedule: sweep.schedule,
-            failed: Mutex::default(),
+            failed: OnceLock::new(),
         }
     }
 
@@ -36,7 +42,7 @@ impl<'a> Trajectories<'a> {
     pub fn none(n_replicas: usize) -> Self {
         let schedule = Schedule { step: 0.01, transient: 0.0, average: 1.0, stride: 1 };
         let of = (0..n_replicas).map(|_| None).collect();
-        Self { of, series: None, schedule, failed: Mutex::default() }
+        Self { of, series: None, schedule, failed: OnceLock::new() }
     }
 
     /// Whether all that is asked for of a replica is there.
@@ -52,54 +58,44 @@ impl<'a> Trajectories<'a> {
     }
 
     /// Keeps a state of a replica.
-    pub fn add(&self, replica: usize, record: &Record<'_>) {
-        self.with(replica, |trajectory| trajectory.add(record.number, record.time, record.states));
+    pub fn add(&self, replica: usize, &Record { number, time, states, .. }: &Record<'_>) {
+        self.try_with(replica, |trajectory| trajectory.add(number, time, states));
     }
 
     /// Writes what is gathered of a replica, before its state is kept from which it can go on.
     pub fn write(&self, replica: usize) {
-        self.with(replica, Trajectory::write);
+        self.try_with(replica, Trajectory::write);
     }
 
     /// A replica has ended; whether all its states are there.
     pub fn finish(&self, replica: usize) -> bool {
-        let is_whole = self.with(replica, |trajectory| {
-            trajectory.finish();
-            trajectory.is_whole()
-        });
-        is_whole.unwrap_or(true)
+        self.try_with(replica, Trajectory::finish);
+        self.are_whole(replica)
     }
 
-    /// Whether states could not be written.
+    /// Whether states could not be written. Asked at every sample.
     pub fn have_failed(&self) -> bool {
-        self.failed.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+        self.failed.get().is_some()
     }
 
     /// Why they could not, if they could not.
-    pub fn failure(self) -> Option<std::io::Error> {
-        self.failed.into_inner().unwrap_or_else(PoisonError::into_inner)
+    pub fn failure(self) -> Option<Error> {
+        self.failed.into_inner()
+    }
+
+    fn try_with(&self, replica: usize, work: impl FnOnce(&mut Trajectory) -> Result<()>) {
+        if let Some(Err(error)) = self.with(replica, work) {
+            let _ = self.failed.set(error);
+        }
     }
 
     fn with<T>(&self, replica: usize, work: impl FnOnce(&mut Trajectory) -> T) -> Option<T> {
         let trajectory = self.of[replica].as_ref()?;
-        let mut trajectory = trajectory.lock().unwrap_or_else(PoisonError::into_inner);
-        let result = work(&mut trajectory);
-        if let Some(error) = trajectory.take_failure() {
-            self.failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-        }
-        Some(result)
+        Some(work(&mut trajectory.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 }
 
-/// The states of a replica with this key, if they are asked for.
-pub fn trajectory(
-    work: &Work<'_>,
-    sweep: &Sweep,
-    replica: Replica,
-    key: &Key,
-) -> Option<Trajectory> {
-    let recorded = work.plan.recorded.as_ref()?;
-    let is_asked = recorded.replicas.contains(&replica);
-    let key = work.journal.key(Kind::States, &(key.0, &sweep.series));
-    is_asked.then(|| work.journal.trajectory(&key))
+/// What the states of a replica with this key are known by.
+pub fn states(work: &Work<'_>, sweep: &Sweep, key: &Key) -> Key {
+    work.journal.key(Kind::States, &(key.0, &sweep.series))
 }
