@@ -1,11 +1,10 @@
 //! Claims before anything is computed: each names an instance of its quantity that will exist, and
 //! states a value of the shape that the quantity has.
 
-use std::collections::HashSet;
 use std::fmt::Display;
 
 use eigensync::numbers::plain;
-use eigensync::{ALL_PAIRS, Study};
+use eigensync::{ALL_PAIRS, Study, misnamed_modes};
 use graph::Names;
 use serde::de::DeserializeOwned;
 
@@ -131,12 +130,12 @@ impl Checker<'_> {
         if sweep.epsilon.contains(&epsilon) {
             return Ok(());
         }
-        let distance = |value: &f64| (value - epsilon).abs();
-        let nearest = sweep.epsilon.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         Err(Fault {
             key: key.to_owned(),
             message: format!("is {}, which is not a point of `sweep.epsilon`", plain(epsilon)),
-            hint: nearest.map(|&nearest| format!("the nearest point is {}", plain(nearest))),
+            hint: sweep
+                .nearest(epsilon)
+                .map(|near| format!("the nearest point is {}", plain(near))),
         })
     }
 
@@ -147,14 +146,9 @@ impl Checker<'_> {
         if modes.is_empty() {
             return refuse(key, "is empty");
         }
-        if let Some(mode) = modes.iter().find(|mode| !(1..=most).contains(*mode)) {
-            let message = format!("has mode {mode}, but the modes computed are 1 to {most}");
-            return refuse(key, message);
-        }
-        let mut seen = HashSet::new();
-        match modes.iter().find(|mode| !seen.insert(**mode)) {
+        match misnamed_modes(modes, most) {
             None => Ok(Some(modes.clone())),
-            Some(mode) => refuse(key, format!("has mode {mode} more than once")),
+            Some(message) => refuse(key, message),
         }
     }
 

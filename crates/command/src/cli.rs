@@ -6,19 +6,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use dynamics::InstructionSet;
 
-use crate::closing;
-use crate::curve;
-use crate::list;
-use crate::output;
 use crate::output::{say, tell};
-use crate::predict;
-use crate::run;
-use crate::terminal;
-use runner::check;
-use runner::check::Checked;
-use user::Stages;
+use crate::{closing, curve, list, output, predict, run, terminal};
+use runner::check::{self, Checked};
 use user::text::{one_line, shown};
-use user::{Problem, Result};
+use user::{Problem, Result, Stages};
 
 /// Predicts which oscillators of a network synchronise into clusters, at which coupling and in which
 /// order, and checks the prediction by simulation.

@@ -15,19 +15,18 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use toml::toml;
 
+use crate::begun::Begun;
 use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
 use crate::output::{document, say, tell};
-use crate::{signals, terminal};
+use crate::run::seconds;
+use crate::signals;
 use experiment::{Plan, Text, plan_of};
 use journal::Journal;
-use results_folder::{Folder, Place};
-use runner::findings;
-use runner::overview;
+use results_folder::Folder;
 use runner::provenance::Provenance;
 use runner::record::{LAYOUT, MsfRecord, msf_record};
 use runner::results::write_msf;
-use runner::warning;
-use runner::{Work, program};
+use runner::{Work, findings, overview, warning};
 use std::sync::Arc;
 use user::text::shown;
 use user::{Problem, Result, Stages, Watch};
@@ -84,12 +83,8 @@ struct Summary {
 pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
     let id = id(&args.node);
-    let watch = terminal::watch();
-    let stages = Stages::new(&id, watch.clone());
-    let made_from = ("msf", Path::new(""));
-    let place = Place::reserve(&args.results, &id, made_from, args.quick, watch.clone())?;
-    let journal = Journal::open(place.unfinished(), &id, program::name(), args.fresh, watch)?;
-    let journal = Arc::new(journal);
+    let (made_from, how) = (("msf", Path::new("")), (args.quick, args.fresh));
+    let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let mut place = Some(place);
     let computed = || {
         let plan = plan(args, &id, &stages, &journal)?;
@@ -117,8 +112,7 @@ pub fn run(args: &Args) -> Result<()> {
         Ok((plan, msf, place.finish(folder)?, json))
     };
     let (plan, msf, written, json) = signals::keeping(&journal, || journal.until(computed))?;
-    let where_to =
-        format!("results in {}, in {:.1} s", shown(&written), started.elapsed().as_secs_f64());
+    let where_to = format!("results in {}, in {}", shown(&written), seconds(started.elapsed()));
     if args.json {
         document(&json);
         tell!("{where_to}");

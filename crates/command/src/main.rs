@@ -1,10 +1,11 @@
 //! The command `eigensync`: experiment files in, results folders out.
 //!
 //! `cli` is the command line; `run`, `predict`, `curve` (`eigensync msf`) and `list` are commands,
-//! `closing` says how a run ended. `terminal` is told how the work goes on and shows it, `signals` end
+//! `begun` is what those begin with that leave results, `closing` says how a run ended. `terminal` is told how the work goes on and shows it, `signals` end
 //! it. Only this crate knows a terminal.
 
 mod bar;
+mod begun;
 mod cli;
 mod closing;
 mod curve;

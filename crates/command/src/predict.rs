@@ -11,22 +11,20 @@ use eigensync::Wanted;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
+use crate::begun::Begun;
 use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
 use crate::output::{document as print_document, say, tell};
-use crate::{signals, terminal};
+use crate::run::seconds;
+use crate::signals;
 use experiment::load;
 use experiment::spec::{Format, MatrixKind};
 use experiment::{Plan, Text, plan_of};
 use journal::Journal;
-use results_folder::{Place, STANDARD_INPUT, id};
+use results_folder::{STANDARD_INPUT, id};
 use runner::computed::Curves;
-use runner::findings;
-use runner::overview;
-use runner::results;
-use runner::{Work, program};
-use user::Stages;
+use runner::{Work, findings, overview, results};
 use user::text::shown;
-use user::{Problem, Result};
+use user::{Problem, Result, Stages};
 
 /// Longest network from standard input, in bytes.
 const MOST_BYTES: u64 = 1 << 30;
@@ -143,13 +141,9 @@ pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
     let input = Input::of(args)?;
     let id = id(&input.file)?;
-    let watch = terminal::watch();
-    let stages = Stages::new(&id, watch.clone());
     let document = experiment(args, &input)?;
-    let made_from = ("predict", &*input.named);
-    let place = Place::reserve(&args.results, &id, made_from, args.quick, watch.clone())?;
-    let journal = Journal::open(place.unfinished(), &id, program::name(), args.fresh, watch)?;
-    let journal = Arc::new(journal);
+    let (made_from, how) = (("predict", &*input.named), (args.quick, args.fresh));
+    let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let origin = place.origin().clone();
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
@@ -164,17 +158,17 @@ pub fn run(args: &Args) -> Result<()> {
         Ok((plan, found, written.place))
     };
     let (plan, found, place) = signals::keeping(&journal, || journal.until(predicted))?;
-    let (folder, seconds) = (shown(&place), started.elapsed().as_secs_f64());
+    let where_to = format!("results in {}, in {}", shown(&place), seconds(started.elapsed()));
     if args.json {
         let path = place.join("summary.json");
         let summary = std::fs::read_to_string(&path)
             .map_err(|error| Problem::from_error("cannot be read again", error).in_file(&path))?;
         print_document(summary.trim_end());
-        tell!("results in {folder}, in {seconds:.1} s");
+        tell!("{where_to}");
         return Ok(());
     }
     say!("{}\n{}", overview::of(&plan, &found), overview::cost(&stages));
-    say!("\nresults in {folder}, in {seconds:.1} s");
+    say!("\n{where_to}");
     say!("the same as an experiment file: {}", shown(place.join(results::EXPERIMENT)));
     Ok(())
 }

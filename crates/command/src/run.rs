@@ -10,15 +10,12 @@ use dynamics::InstructionSet;
 use crate::closing::{self, Outcome};
 use crate::output::{say, tell};
 use crate::suite::Suite;
-use crate::{signals, terminal};
+use crate::{begun, signals, terminal};
 use experiment::Plan;
 use golden::golden_summary;
-use journal::Journal;
 use results_folder::Place;
 use runner::computed::Curves;
-use runner::overview;
-use runner::{Done, Plans, Work, plans, program};
-use std::sync::Arc;
+use runner::{Done, Plans, Work, overview, plans};
 use user::text::shown;
 use user::{Result, Stages};
 
@@ -53,9 +50,8 @@ pub fn run(files: &[PathBuf], options: &Options) -> Result<bool> {
     let mut suite = Suite::new(work(&plans));
     for (((plan, stages), place), golden) in plans.iter().zip(places).zip(&goldens) {
         suite.begin();
-        let (folder, id) = (place.unfinished(), &plan.id);
-        let journal = Journal::open(folder, id, program::name(), options.fresh, watch.clone())?;
-        let journal = Arc::new(journal);
+        let id = &plan.id;
+        let journal = begun::journal(&place, id, options.fresh)?;
         let work = Work { plan, journal: &journal, stages };
         let done =
             signals::keeping(&journal, || runner::run(&work, place, golden.as_ref(), &mut curves))?;

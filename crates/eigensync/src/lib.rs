@@ -195,7 +195,7 @@ pub use compute::Compute;
 pub use error::Error;
 pub use find::{EQUITABLE, curve_by, find, find_by, simulate};
 pub use findings::Findings;
-pub use modes::{ALL_MODES, Wanted, WantedModes};
+pub use modes::{ALL_MODES, Wanted, WantedModes, misnamed_modes};
 pub use observer::Observer;
 pub use simulated::end::{End, Group, Known};
 pub use simulated::range::Seen;

@@ -1,5 +1,6 @@
 //! Which modes of the coupling matrix a prediction needs, by which solver.
 
+use std::collections::HashSet;
 use std::fmt;
 
 use msf::StableRegion;
@@ -125,6 +126,17 @@ impl WantedModes {
             _ => n_nodes,
         }
     }
+}
+
+/// What is wrong with modes as they are named, counted from 1: there are no more of them than so many, and
+/// none is named twice.
+pub fn misnamed_modes(modes: &[usize], most: usize) -> Option<String> {
+    if let Some(mode) = modes.iter().find(|mode| !(1..=most).contains(*mode)) {
+        return Some(format!("has mode {mode}, but the modes computed are 1 to {most}"));
+    }
+    let mut seen = HashSet::new();
+    let twice = modes.iter().find(|mode| !seen.insert(**mode))?;
+    Some(format!("has mode {twice} more than once"))
 }
 
 impl<'de> Deserialize<'de> for Wanted {

@@ -147,6 +147,12 @@ impl Sweep {
         }
     }
 
+    /// The point of the sweep nearest to a coupling strength.
+    pub fn nearest(&self, epsilon: f64) -> Option<f64> {
+        let distance = |value: &f64| (value - epsilon).abs();
+        self.epsilon.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
     /// All replicas, seed by seed within each ε.
     pub fn replicas(&self) -> Vec<Replica> {
         let of = |&epsilon| self.seeds.iter().map(move |&seed| Replica { epsilon, seed });

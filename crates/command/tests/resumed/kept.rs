@@ -16,6 +16,24 @@ fn run(place: &Workplace, arguments: &[&str]) -> String {
     place.answer(&[&["run", "tiny.toml"], arguments].concat()).with_status(0).stderr
 }
 
+/// What a run says that can write no file of more blocks than so many, and so ends with status 2. A limit
+/// on the size of files stands for a full disk: writing fails in the same way.
+#[track_caller]
+fn refused_by_the_disk(place: &Workplace, blocks: u32) -> String {
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f {blocks}; exec {} run tiny.toml --threads 1",
+        assert_cmd::cargo::cargo_bin!("eigensync").display()
+    );
+    let output = Command::new("sh")
+        .args(["-c", &limited])
+        .current_dir(place.path("."))
+        .output()
+        .expect("there is a shell");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    said
+}
+
 #[test]
 fn finished_replicas_the_curve_and_the_spectrum_are_taken_over_and_said() {
     let place = interrupted();
@@ -135,18 +153,7 @@ fn what_was_computed_before_a_later_stage_failed_is_kept_and_used() {
 fn a_disk_that_fills_costs_neither_what_was_kept_nor_an_older_result() {
     let undisturbed = undisturbed();
     let place = with(&forty());
-    // A limit on the size of files stands for a full disk: writing fails in the same way.
-    let limited = format!(
-        "trap '' XFSZ; ulimit -f 10; exec {} run tiny.toml --threads 1",
-        assert_cmd::cargo::cargo_bin!("eigensync").display()
-    );
-    let output = Command::new("sh")
-        .args(["-c", &limited])
-        .current_dir(place.path("."))
-        .output()
-        .expect("there is a shell");
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let said = refused_by_the_disk(&place, 10);
     assert!(said.contains("cannot be kept for a later run"), "{said}");
     assert!(said.contains("run it again with the same options"), "{said}");
     assert!(!place.path("results/tiny").exists());
@@ -219,17 +226,7 @@ fn states_that_cannot_be_written_stop_the_run_and_are_simulated_again() {
     run(&whole, &[]);
     let place = with(&forty().and(keys));
     // Room for the journal, and not for ten thousand states of a replica.
-    let limited = format!(
-        "trap '' XFSZ; ulimit -f 400; exec {} run tiny.toml --threads 1",
-        assert_cmd::cargo::cargo_bin!("eigensync").display()
-    );
-    let output = Command::new("sh")
-        .args(["-c", &limited])
-        .current_dir(place.path("."))
-        .output()
-        .expect("there is a shell");
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let said = refused_by_the_disk(&place, 400);
     assert!(said.contains("tiny.toml: the states on the way cannot be written"), "{said}");
     assert!(said.contains("ask for fewer states in [sweep.series]"), "{said}");
     run(&place, &[]);

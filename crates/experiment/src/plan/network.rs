@@ -1,12 +1,9 @@
 //! The network of an experiment, and whatever names its nodes or modes.
 
-use std::collections::HashSet;
-
-use eigensync::ALL_PAIRS;
 use graph::prepare::Report;
 use graph::{NameError, Network};
 
-use eigensync::WantedModes;
+use eigensync::{ALL_PAIRS, WantedModes, misnamed_modes};
 
 use super::Checker;
 use crate::spec::{FigureKind, Layout};
@@ -39,19 +36,8 @@ impl Checker<'_> {
     }
 
     /// Modes, counted from 1: no more of them than there are, and none twice.
-    pub(super) fn modes(&self, key: &str, modes: &[usize], most: usize) -> Result<()> {
-        if let Some(mode) = modes.iter().find(|mode| !(1..=most).contains(*mode)) {
-            return Err(self.modes_problem(key, *mode, most));
-        }
-        let mut seen = HashSet::new();
-        match modes.iter().find(|mode| !seen.insert(**mode)) {
-            None => Ok(()),
-            Some(mode) => Err(self.problem(key, format!("has mode {mode} more than once"))),
-        }
-    }
-
-    fn modes_problem(&self, key: &str, mode: usize, most: usize) -> Problem {
-        self.problem(key, format!("has mode {mode}, but the modes computed are 1 to {most}"))
+    fn modes(&self, key: &str, modes: &[usize], most: usize) -> Result<()> {
+        misnamed_modes(modes, most).map_or(Ok(()), |message| Err(self.problem(key, message)))
     }
 
     /// The regions are groups, and their thresholds make sense.

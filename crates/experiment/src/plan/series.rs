@@ -1,5 +1,6 @@
 //! States of nodes on the way: of which nodes, at which couplings, and how many numbers that makes.
 
+use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use dynamics::{Model, NodeDynamics, Replica, Series};
@@ -157,25 +158,26 @@ impl Checker<'_> {
         if asked.is_empty() {
             return Err(self.problem(key, "is empty").hint("leave it out for all points"));
         }
-        let is_again = |at: &usize| asked[..*at].contains(&asked[*at]);
-        if let Some(again) = (0..asked.len()).find(is_again) {
-            let message = format!("contains {} more than once", plain(asked[again]));
+        let mut asked = asked.clone();
+        asked.sort_by(f64::total_cmp);
+        if let Some(pair) = asked.windows(2).find(|pair| pair[0] == pair[1]) {
+            let message = format!("contains {} more than once", plain(pair[0]));
             return Err(self.problem(key, message));
         }
-        if let Some(epsilon) = asked.iter().find(|epsilon| !sweep.epsilon.contains(epsilon)) {
-            return Err(self.no_point(key, *epsilon, &sweep.epsilon));
-        }
-        let is_asked = |epsilon: &&f64| asked.contains(epsilon);
-        Ok(sweep.epsilon.iter().filter(is_asked).copied().collect())
+        let points = &sweep.epsilon;
+        let point = |epsilon: &f64| {
+            let found =
+                points.binary_search_by(|p| p.partial_cmp(epsilon).unwrap_or(Ordering::Less));
+            found.map(|at| points[at]).map_err(|_| self.no_point(key, *epsilon, sweep))
+        };
+        asked.iter().map(point).collect()
     }
 
-    fn no_point(&self, key: &str, epsilon: f64, points: &[f64]) -> user::Problem {
-        let distance = |value: &f64| (value - epsilon).abs();
-        let nearest = points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    fn no_point(&self, key: &str, epsilon: f64, sweep: &Sweep) -> user::Problem {
         let message = format!("has {}, which is not a point of `sweep.epsilon`", plain(epsilon));
         let problem = self.problem(key, message);
-        match nearest {
-            Some(&nearest) => problem.hint(format!("the nearest point is {}", plain(nearest))),
+        match sweep.nearest(epsilon) {
+            Some(nearest) => problem.hint(format!("the nearest point is {}", plain(nearest))),
             None => problem,
         }
     }
