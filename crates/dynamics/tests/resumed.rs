@@ -1,15 +1,18 @@
 //! Simulations that are followed, stopped and resumed.
 
-use std::collections::BTreeMap;
+mod common;
+
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::{
     Adaptive, AdaptiveOrder, Coupling, DynamicsError, InstructionSet, Lorenz, Method, Model, Next,
-    Observables, Observer, Outcome, ROUNDING_KICK, Replica, Rossler, Schedule, Simulation,
-    Snapshot, SparseMatrix, Start,
+    Observables, Observer, Outcome, ROUNDING_KICK, Record, Replica, Rossler, Schedule, Simulation,
+    SparseMatrix, Start,
 };
+
+use common::{Interruption, on_threads, replicas};
 
 /// A ring with a chord; links of equal weights are summed otherwise than those of different ones.
 fn ring(n_nodes: usize, weight: impl Fn(usize) -> f64) -> SparseMatrix {
@@ -51,80 +54,9 @@ fn dopri5() -> Method {
     Method::Adaptive(Adaptive { order, relative_tolerance: 1e-6, absolute_tolerance: 1e-6 })
 }
 
-fn replicas(n: u64) -> Vec<Replica> {
-    (0..n).map(|k| Replica { epsilon: 0.3 * k as f64, seed: 1 + k % 5 }).collect()
-}
-
-fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
-}
-
-/// Stops a simulation at some sample of some batch, and keeps what it was told.
-struct Interruption<'a> {
-    /// Of each start, its place in the list of all replicas.
-    places: &'a [usize],
-    /// Samples of all batches together until it stops, and between snapshots before.
-    samples_left: AtomicU64,
-    between_snapshots: u64,
-    outcomes: Mutex<BTreeMap<usize, Outcome>>,
-    snapshots: Mutex<BTreeMap<usize, Snapshot>>,
-}
-
-impl Observer for Interruption<'_> {
-    fn advanced(&self, _: &[usize], _: u64) -> Next {
-        let left = self.samples_left.fetch_sub(1, Ordering::Relaxed);
-        // Counts wrap below zero, where everything has to stop.
-        if left == 0 || left > u64::MAX / 2 {
-            Next::Stop
-        } else if left.is_multiple_of(self.between_snapshots) {
-            Next::Snapshot
-        } else {
-            Next::GoOn
-        }
-    }
-
-    fn finished(&self, replica: usize, outcome: &Outcome) {
-        let earlier = self.outcomes.lock().unwrap().insert(self.places[replica], outcome.clone());
-        assert_eq!(earlier, None, "a replica ends once");
-    }
-
-    fn snapshot(&self, replica: usize, snapshot: Snapshot) {
-        self.snapshots.lock().unwrap().insert(self.places[replica], snapshot);
-    }
-}
-
-/// Outcomes of a simulation that is interrupted again and again, and resumed on another number of
-/// threads from what is left of its snapshots.
-fn interrupted(simulation: &Simulation<'_>, replicas: &[Replica]) -> (Vec<Outcome>, usize) {
-    let mut outcomes: BTreeMap<usize, Outcome> = BTreeMap::new();
-    let mut snapshots: BTreeMap<usize, Snapshot> = BTreeMap::new();
-    for round in 0.. {
-        let places: Vec<usize> =
-            (0..replicas.len()).filter(|place| !outcomes.contains_key(place)).collect();
-        let start = |&place: &usize| Start {
-            replica: replicas[place],
-            from: snapshots.get(&place).cloned(),
-        };
-        let starts: Vec<Start> = places.iter().map(start).collect();
-        let observer = Interruption {
-            places: &places,
-            samples_left: AtomicU64::new(61 + 37 * (round % 4)),
-            between_snapshots: 13 + round % 3,
-            outcomes: Mutex::default(),
-            snapshots: Mutex::default(),
-        };
-        let threads = 1 + round as usize % 3;
-        let run = on_threads(threads, || simulation.run_observed(starts, &observer));
-        outcomes.append(&mut observer.outcomes.into_inner().unwrap());
-        snapshots.append(&mut observer.snapshots.into_inner().unwrap());
-        // Some are lost, so that those of one batch part.
-        snapshots.retain(|place, _| !(place + round as usize).is_multiple_of(7));
-        match run {
-            Ok(_) => return (outcomes.into_values().collect(), round as usize),
-            Err(error) => assert_eq!(error, DynamicsError::Cancelled),
-        }
-    }
-    unreachable!("rounds go on until the simulation has ended")
+/// Outcomes of a simulation that is interrupted again and again, and how often it was.
+fn interrupted(simulation: &Simulation<'_>, replicas: &[Replica]) -> (Vec<Outcome>, u64) {
+    common::interrupted(simulation, replicas, |_, _| {}, |_, _| {})
 }
 
 #[test]
@@ -164,14 +96,8 @@ fn interrupted_runs_of_the_adaptive_integrator_go_on_to_the_same_bits() {
 fn a_snapshot_of_another_shape_is_told_from_those_of_the_simulation() {
     let matrix = ring(5, |_| 1.0);
     let simulation = lorenz(&matrix);
-    let places = [0];
-    let observer = Interruption {
-        places: &places,
-        samples_left: AtomicU64::new(90),
-        between_snapshots: 10,
-        outcomes: Mutex::default(),
-        snapshots: Mutex::default(),
-    };
+    let nothing = |_: usize, _: &Record<'_>| {};
+    let observer = Interruption::after(90, 10, &[0], &nothing);
     let stopped = simulation.run_observed(vec![replicas(1)[0].into()], &observer);
     assert_eq!(stopped, Err(DynamicsError::Cancelled));
     let snapshot = &observer.snapshots.into_inner().unwrap()[&0];

@@ -1,14 +1,17 @@
 //! Time series on request: states at every k-th sample, told as they come.
 
+mod common;
+
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
 use dynamics::{
     Adaptive, AdaptiveOrder, BLOCKS, Coupling, DynamicsError, InstructionSet, Lorenz, Method,
-    Model, Native, Next, Observables, Observer, Oscillator, Outcome, ROUNDING_KICK, Record,
-    Replica, Rossler, Run, Scalar, Schedule, Series, Simulation, Snapshot, SparseMatrix, Start,
+    Model, Native, Observables, Observer, Oscillator, Outcome, ROUNDING_KICK, Record, Replica,
+    Rossler, Run, Scalar, Schedule, Series, Simulation, Snapshot, SparseMatrix,
 };
+
+use common::{on_threads, replicas};
 
 /// The laplacian coupling matrix of a ring, of two nodes with one link.
 fn ring(n_nodes: usize) -> SparseMatrix {
@@ -41,14 +44,6 @@ fn lorenz(matrix: &SparseMatrix, series: Series) -> Simulation<'_> {
 fn adaptive(order: AdaptiveOrder, tolerance: f64) -> Method {
     let (relative_tolerance, absolute_tolerance) = (tolerance, tolerance);
     Method::Adaptive(Adaptive { order, relative_tolerance, absolute_tolerance })
-}
-
-fn replicas(n: u64) -> Vec<Replica> {
-    (0..n).map(|k| Replica { epsilon: 0.3 * k as f64, seed: 1 + k % 5 }).collect()
-}
-
-fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
 }
 
 /// A record that is kept.
@@ -265,92 +260,26 @@ fn the_errors_of_a_run_are_those_of_its_records_and_of_a_run_without_any_to_the_
     }
 }
 
-/// Keeps snapshots and records as files would be kept, until it stops the simulation.
-struct Interruption<'a> {
-    /// Of each start, its place in the list of all replicas.
-    places: &'a [usize],
-    /// Samples of all batches together until it stops, and between snapshots before.
-    samples_left: AtomicU64,
-    between_snapshots: u64,
-    outcomes: Mutex<BTreeMap<usize, Outcome>>,
-    snapshots: Mutex<BTreeMap<usize, Snapshot>>,
-    records: &'a [Mutex<Vec<Kept>>],
-}
-
-impl Observer for Interruption<'_> {
-    fn advanced(&self, _: &[usize], _: u64) -> Next {
-        let left = self.samples_left.fetch_sub(1, Ordering::Relaxed);
-        // Counts wrap below zero, where everything has to stop.
-        if left == 0 || left > u64::MAX / 2 {
-            Next::Stop
-        } else if left.is_multiple_of(self.between_snapshots) {
-            Next::Snapshot
-        } else {
-            Next::GoOn
-        }
-    }
-
-    fn recorded(&self, replica: usize, record: &Record<'_>) {
-        keep(&mut self.records[self.places[replica]].lock().unwrap(), record);
-    }
-
-    fn finished(&self, replica: usize, outcome: &Outcome) {
-        self.outcomes.lock().unwrap().insert(self.places[replica], outcome.clone());
-    }
-
-    fn snapshot(&self, replica: usize, snapshot: Snapshot) {
-        self.snapshots.lock().unwrap().insert(self.places[replica], snapshot);
-    }
-}
-
-/// The records of a simulation that is interrupted again and again, and resumed on another number of
-/// threads from what is left of its snapshots, its records cut back to them; and how often it was.
+/// The records of a simulation that is interrupted again and again, cut back to what it goes on from each
+/// time; and how often it was.
 fn interrupted(simulation: &Simulation<'_>, replicas: &[Replica]) -> (Vec<Vec<Kept>>, u64) {
     let series = simulation.series.as_ref().unwrap();
     let records: Vec<Mutex<Vec<Kept>>> = replicas.iter().map(|_| Mutex::default()).collect();
-    let mut outcomes: BTreeMap<usize, Outcome> = BTreeMap::new();
-    let mut snapshots: BTreeMap<usize, Snapshot> = BTreeMap::new();
     let mut n_cut = 0;
-    for round in 0.. {
-        let places: Vec<usize> =
-            (0..replicas.len()).filter(|place| !outcomes.contains_key(place)).collect();
-        let starts: Vec<Start> = places
-            .iter()
-            .map(|place| {
-                let from = snapshots.get(place).cloned();
-                let told =
-                    |from: &Snapshot| series.n_records_by(&simulation.schedule, from.sample());
-                let n_told = from.as_ref().map_or(0, told) as usize;
-                let mut records = records[*place].lock().unwrap();
-                assert!(records.len() >= n_told, "a snapshot is of samples that were told");
-                n_cut += records.len() - n_told;
-                records.truncate(n_told);
-                Start { replica: replicas[*place], from }
-            })
-            .collect();
-        let observer = Interruption {
-            places: &places,
-            samples_left: AtomicU64::new(61 + 37 * (round % 4)),
-            between_snapshots: 13 + round % 3,
-            outcomes: Mutex::default(),
-            snapshots: Mutex::default(),
-            records: &records,
-        };
-        let threads = 1 + round as usize % 3;
-        let run = on_threads(threads, || simulation.run_observed(starts, &observer));
-        outcomes.append(&mut observer.outcomes.into_inner().unwrap());
-        snapshots.append(&mut observer.snapshots.into_inner().unwrap());
-        // Some are lost: their replicas begin anew.
-        snapshots.retain(|place, _| !(place + round as usize).is_multiple_of(7));
-        match run {
-            Ok(_) => {
-                assert!(n_cut > 0, "no record was told again");
-                return (records.into_iter().map(|of| of.into_inner().unwrap()).collect(), round);
-            }
-            Err(error) => assert_eq!(error, DynamicsError::Cancelled),
-        }
-    }
-    unreachable!("rounds go on until the simulation has ended")
+    let begins = |place: usize, from: Option<&Snapshot>| {
+        let told = |from: &Snapshot| series.n_records_by(&simulation.schedule, from.sample());
+        let n_told = from.map_or(0, told) as usize;
+        let mut records = records[place].lock().unwrap();
+        assert!(records.len() >= n_told, "a snapshot is of samples that were told");
+        n_cut += records.len() - n_told;
+        records.truncate(n_told);
+    };
+    let recorded = |place: usize, record: &Record<'_>| {
+        keep(&mut records[place].lock().unwrap(), record);
+    };
+    let (_, interruptions) = common::interrupted(simulation, replicas, begins, recorded);
+    assert!(n_cut > 0, "no record was told again");
+    (records.into_iter().map(|of| of.into_inner().unwrap()).collect(), interruptions)
 }
 
 #[test]
