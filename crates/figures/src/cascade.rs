@@ -17,6 +17,7 @@ mod style;
 
 use super::axis::{Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Rect};
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
@@ -38,12 +39,13 @@ const RIGHT: f64 = 8.0;
 /// Room beyond the end of a prediction, for words read upwards.
 const BEYOND: f64 = 14.0;
 
-impl CascadePanel {
+impl Drawable for CascadePanel {
     /// Draws the states over the whole width of the cell.
-    pub(super) fn draw(
+    fn draw(
         &self,
         canvas: &mut Canvas,
         cell: Rect,
+        _left_margin: f64,
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
@@ -65,7 +67,9 @@ impl CascadePanel {
         ruler::draw(canvas, &self.states, &columns, cell);
         Ok(())
     }
+}
 
+impl CascadePanel {
     fn frame(&self, cell: Rect) -> Rect {
         let numbers = self.node_ticks([cell.bottom, cell.top]);
         let labels = numbers.iter().filter_map(|tick| tick.label.as_ref());

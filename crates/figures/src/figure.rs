@@ -4,14 +4,11 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::canvas::{Anchor, Canvas, Rect};
-use super::cascade::CascadePanel;
+use super::content::Content;
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
-use super::heat_map::HeatMapPanel;
 use super::label::Label;
-use super::lines::LinePanel;
-use super::network::NetworkPanel;
-use super::positions::PositionsPanel;
 use super::style::{LETTER_SIZE, NOTE_SIZE};
 
 /// Points of 1/72 inch in a millimetre.
@@ -50,21 +47,6 @@ pub struct Panel {
     pub columns: Range<usize>,
     /// What it shows.
     pub content: Content,
-}
-
-/// What a panel shows.
-#[derive(Clone, Debug)]
-pub enum Content {
-    /// Curves in a frame.
-    Lines(LinePanel),
-    /// Nodes and links.
-    Network(NetworkPanel),
-    /// A square matrix in colours.
-    HeatMap(HeatMapPanel),
-    /// Nodes in space, from three sides.
-    Positions(PositionsPanel),
-    /// Clusters of every state as ε falls.
-    Cascade(CascadePanel),
 }
 
 /// A figure as it could be drawn.
@@ -149,7 +131,7 @@ impl Figure {
         Ok(canvas.finish())
     }
 
-    /// Room at the left of each panel, the same for all line panels that begin in one column, so
+    /// Room at the left of each panel, the same for all panels that begin in one column, so
     /// that their frames stand flush.
     fn left_margins(
         &self,
@@ -158,13 +140,14 @@ impl Figure {
     ) -> Result<Vec<f64>, Failure> {
         let mut of_column = vec![0.0_f64; self.columns.len()];
         for (number, (panel, cell)) in self.panels.iter().zip(cells).enumerate() {
-            if let (Content::Lines(lines), false) = (&panel.content, is_empty(number)) {
-                let own =
-                    guarded(&panel.letter, || lines.left_margin(cell.height(), &panel.letter))
-                        .map_err(|error| (Some(number), error))?;
-                let margin = &mut of_column[panel.columns.start];
-                *margin = margin.max(own);
+            if is_empty(number) {
+                continue;
             }
+            let letter = &panel.letter;
+            let own = guarded(letter, || panel.content.left_margin(cell.height(), letter))
+                .map_err(|error| (Some(number), error))?;
+            let margin = &mut of_column[panel.columns.start];
+            *margin = margin.max(own);
         }
         Ok(self.panels.iter().map(|p| of_column[p.columns.start]).collect())
     }
@@ -197,24 +180,6 @@ impl Figure {
             }
         }
         Ok(())
-    }
-}
-
-impl Content {
-    fn draw(
-        &self,
-        canvas: &mut Canvas,
-        cell: Rect,
-        margin: f64,
-        letter: &str,
-    ) -> Result<(), FigureError> {
-        match self {
-            Self::Lines(lines) => lines.draw(canvas, cell, margin, letter),
-            Self::Network(network) => network.draw(canvas, cell, letter),
-            Self::HeatMap(matrix) => matrix.draw(canvas, cell, letter),
-            Self::Positions(nodes) => nodes.draw(canvas, cell, letter),
-            Self::Cascade(cascade) => cascade.draw(canvas, cell, letter),
-        }
     }
 }
 

@@ -10,6 +10,7 @@ use self::axes::{LABEL_GAP, NodeAxes, TICK_LENGTH};
 use super::axis::{self, Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::colour_map::{Picture, block_means};
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::groups::{self, Group};
@@ -60,12 +61,13 @@ struct Places {
     bar: Rect,
 }
 
-impl HeatMapPanel {
+impl Drawable for HeatMapPanel {
     /// Draws the matrix as large as the cell allows, below its title.
-    pub(super) fn draw(
+    fn draw(
         &self,
         canvas: &mut Canvas,
         cell: Rect,
+        _left_margin: f64,
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
@@ -91,7 +93,9 @@ impl HeatMapPanel {
         title::draw(canvas, &self.title, middle, (cell, right), panel);
         Ok(())
     }
+}
 
+impl HeatMapPanel {
     fn check(&self, panel: &str) -> Result<(), FigureError> {
         let (n_nodes, n_values) = (self.n_nodes, self.values.len());
         if n_nodes == 0 {
@@ -242,7 +246,7 @@ mod tests {
 
     fn svg_of(panel: &HeatMapPanel) -> Result<String, FigureError> {
         let mut canvas = Canvas::new(164.0, 154.0, "");
-        panel.draw(&mut canvas, CELL, "(b1)").map(|()| canvas.finish())
+        panel.draw(&mut canvas, CELL, 0.0, "(b1)").map(|()| canvas.finish())
     }
 
     /// Colours at the middles of cells of the rendered matrix, and the whole dots of one cell.

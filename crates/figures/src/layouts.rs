@@ -6,7 +6,8 @@
 
 use std::ops::Range;
 
-use super::figure::{COLUMN_GAP, Content, Figure, POINTS_PER_MM, Panel, ROW_GAP};
+use super::content::Content;
+use super::figure::{COLUMN_GAP, Figure, POINTS_PER_MM, Panel, ROW_GAP};
 use super::heat_map::HeatMapPanel;
 use super::lines::LinePanel;
 use super::network::NetworkPanel;

@@ -3,7 +3,7 @@
 //! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
 //! (with `series`, `axis`, `markers` and `legend`; `msf` and `components` fill it), `network` (with
 //! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`, `cascade`; a new kind is
-//! one more file and one more [`Content`] in `figure`. They draw through `canvas`, which writes SVG in points,
+//! one more file, a `Drawable`, and its line in `content`. They draw through `canvas`, which writes SVG in points,
 //! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG of it, `pdf` the PDF.
 //! `layouts` sets panels side by side as the paper's figures do.
 
@@ -14,6 +14,8 @@ mod cascade_error;
 mod circle;
 mod colour_map;
 mod components;
+mod content;
+mod drawable;
 mod error;
 mod figure;
 mod font;
@@ -42,8 +44,9 @@ pub use axis::Scale;
 pub use cascade::{CascadeCluster, CascadePanel, CascadeState};
 pub use cascade_error::CascadeError;
 pub use components::{Mode, components_panel};
+pub use content::Content;
 pub use error::FigureError;
-pub use figure::{Content, Drawn, Figure, Panel};
+pub use figure::{Drawn, Figure, Panel};
 pub use groups::Group;
 pub use heat_map::HeatMapPanel;
 pub use label::Label;

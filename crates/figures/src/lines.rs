@@ -5,6 +5,7 @@
 
 use super::axis::{self, Axes, Axis, Scale, Tick};
 use super::canvas::{Anchor, Canvas, Point, Rect};
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
@@ -112,9 +113,9 @@ pub struct Note {
     pub label: Label,
 }
 
-impl LinePanel {
+impl Drawable for LinePanel {
     /// Width that numbers and name of the y axis take in a cell of this height.
-    pub(super) fn left_margin(&self, height: f64, panel: &str) -> Result<f64, FigureError> {
+    fn left_margin(&self, height: f64, panel: &str) -> Result<f64, FigureError> {
         let [_, y_range] = self.ranges(panel)?;
         let frame_height = height - self.above() - BELOW;
         let numbers = Axis::new(self.y_scale, y_range, [frame_height.max(1.0), 0.0]);
@@ -126,7 +127,7 @@ impl LinePanel {
 
     /// Draws the panel into a cell, its frame `left_margin` from the left. The legend stands in
     /// the frame where it hides nothing, else above it.
-    pub(super) fn draw(
+    fn draw(
         &self,
         canvas: &mut Canvas,
         cell: Rect,
@@ -161,7 +162,9 @@ impl LinePanel {
         self.draw_frame(canvas, cell, frame, axes);
         Ok(())
     }
+}
 
+impl LinePanel {
     fn above(&self) -> f64 {
         if self.has_marker_labels() {
             markers::ROW_HEIGHT

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::canvas::{Anchor, Canvas, Point, Rect};
 use super::circle::circle;
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
@@ -63,12 +64,13 @@ pub struct Node {
     pub cluster: Option<usize>,
 }
 
-impl NetworkPanel {
+impl Drawable for NetworkPanel {
     /// Draws the network as large as the cell allows.
-    pub(super) fn draw(
+    fn draw(
         &self,
         canvas: &mut Canvas,
         cell: Rect,
+        _left_margin: f64,
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
@@ -107,7 +109,9 @@ impl NetworkPanel {
         self.draw_legend(canvas, cell, legend);
         Ok(())
     }
+}
 
+impl NetworkPanel {
     fn check(&self, panel: &str) -> Result<(), FigureError> {
         let n_nodes = self.nodes.len();
         if n_nodes == 0 {
@@ -276,7 +280,7 @@ mod tests {
     fn svg_of(panel: &NetworkPanel) -> Result<String, FigureError> {
         let mut canvas = Canvas::new(200.0, 200.0, "");
         let cell = Rect { left: 0.0, top: 0.0, right: 200.0, bottom: 200.0 };
-        panel.draw(&mut canvas, cell, "(a1)").map(|()| canvas.finish())
+        panel.draw(&mut canvas, cell, 0.0, "(a1)").map(|()| canvas.finish())
     }
 
     fn pair(weight: f64) -> NetworkPanel {

@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::canvas::{Anchor, Canvas, Point, Rect};
+use super::drawable::Drawable;
 use super::error::FigureError;
 use super::font::CAP_HEIGHT;
 use super::label::Label;
@@ -77,13 +78,14 @@ struct Layout {
     rows: [f64; 2],
 }
 
-impl PositionsPanel {
+impl Drawable for PositionsPanel {
     /// Draws the views as large as the cell allows: coronal above axial, sagittal at the right,
     /// the legend below it.
-    pub(super) fn draw(
+    fn draw(
         &self,
         canvas: &mut Canvas,
         cell: Rect,
+        _left_margin: f64,
         panel: &str,
     ) -> Result<(), FigureError> {
         self.check(panel)?;
@@ -98,7 +100,9 @@ impl PositionsPanel {
         self.draw_legend(canvas, [right_column, layout.rows[1]], room);
         Ok(())
     }
+}
 
+impl PositionsPanel {
     fn check(&self, panel: &str) -> Result<(), FigureError> {
         let (n_nodes, n_clusters) = (self.positions.len(), self.clusters.len());
         if n_nodes == 0 {
@@ -252,7 +256,7 @@ mod tests {
 
     fn svg_of(panel: &PositionsPanel) -> Result<String, FigureError> {
         let mut canvas = Canvas::new(200.0, 200.0, "");
-        panel.draw(&mut canvas, CELL, "(a1)").map(|()| canvas.finish())
+        panel.draw(&mut canvas, CELL, 0.0, "(a1)").map(|()| canvas.finish())
     }
 
     /// Places of the dots of one colour, in order of the views.
