@@ -3,16 +3,19 @@
 //!
 //! All times are in model time units, all coupling strengths in units of the coupling matrix.
 
+mod format;
+mod named;
 mod network;
 mod values;
 
 use claims::{ClaimSpec, Name};
 use dynamics::Model;
 use eigensync::{Bound, Wanted};
+pub use format::Format;
 use indexmap::IndexMap;
 pub use network::{
-    CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RegionsSpec,
-    RowsSpec, StepSpec, SymmetriseSpec,
+    AttributesSpec, CommunitiesSpec, FileSpec, GroupsSpec, HierarchicalSpec, NetworkSpec,
+    RegionsSpec, RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::{Deserialize, Serialize};
 pub use values::{EvenGrid, Grid, Layout, ThresholdSpec};

@@ -1,17 +1,19 @@
 //! Every reader survives damaged files: a deterministic mutation fuzzer over the fixtures.
 //!
-//! Each test mutates the files of its format (bits, bytes, numbers, truncation, splices of two
-//! files) and reads the result until its time is over; a panic, a hang or memory out of proportion
-//! fails it. A second by default; `EIGENSYNC_FUZZ_SECONDS=600` for longer, and
+//! Of every format in the list, the fixtures whose endings tell it are mutated (bits, bytes, numbers,
+//! truncation, splices of two files) and read until the time is over; a panic, a hang or memory out of
+//! proportion fails the test. A second by default; `EIGENSYNC_FUZZ_SECONDS=600` for longer, and
 //! `EIGENSYNC_FUZZ_SEED` for another run than the first. What a round found is told by its number,
 //! which reproduces it whatever the time.
 
+use std::fs;
 use std::io::{Cursor, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use graph::RawNetwork;
-use graph::formats::{Layout, Rows, dense, edge_list, graphml, matlab, matrix_market, numpy, tvb};
+use graph::formats::{Attributes, FORMATS, Format, Layout, Options, Rows};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -19,6 +21,9 @@ use zip::{CompressionMethod, ZipArchive};
 
 /// A file that takes longer than this to be read or refused is a finding.
 const SLOW: Duration = Duration::from_secs(10);
+
+/// How archives begin.
+const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 /// Numbers at which sizes, signs and widths turn over, as text and as bytes.
 const NUMBERS: [i64; 16] = [
@@ -57,12 +62,6 @@ const TEXTS: [&str; 16] = [
     ",",
     "'",
 ];
-
-macro_rules! files {
-    ($($name:literal),+) => {
-        &[$(&include_bytes!(concat!("fixtures/", $name))[..]),+]
-    };
-}
 
 /// A number below `n`, near enough to uniform for the choice of mutations.
 fn below(random: &mut Pcg64, n: usize) -> usize {
@@ -181,139 +180,93 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |value| value.parse().expect("a whole number"))
 }
 
-fn layout(random: &mut Pcg64) -> Layout {
+/// Any choice, those of the fixtures among them.
+fn options(random: &mut Pcg64) -> Options {
     let rows = if below(random, 2) == 0 { Rows::Driven } else { Rows::Driving };
     let start = below(random, 3);
     let block = (below(random, 2) == 0).then(|| start..start + below(random, 4));
-    Layout { rows, block }
+    let variables = [None, Some("structural"), Some("counts"), Some("mask"), Some("sparse")];
+    let variable = variables[below(random, variables.len())].map(str::to_owned);
+    let mut name = |name: &str| (below(random, 2) == 0).then(|| name.to_owned());
+    let (weight, label, group) = (name("strength"), name("full"), name("area"));
+    let position = ["x", "y", "z"].map(str::to_owned)[..below(random, 4)].to_vec();
+    let attributes = Attributes { weight, label, group, position };
+    Options { variable, attributes, layout: Layout { rows, block } }
 }
 
-/// What is read must be sound, and what is refused must say why on one line of bounded length.
-fn check<E: std::fmt::Display>(result: Result<RawNetwork, E>) {
-    match result {
+/// Whether a file is read: what is must be sound, and what is refused must say why on one line of bounded
+/// length.
+fn check(format: &Format, file: &[u8], options: &Options) -> bool {
+    match (format.read)(&mut Cursor::new(file), options) {
         Ok(network) => {
             assert!(network.matrix().data().iter().all(|value| value.is_finite()));
             assert_eq!(network.matrix().rows(), network.labels().len());
+            true
         }
         Err(error) => {
             let message = error.to_string();
             assert!(!message.is_empty() && message.len() < 4096, "{} bytes", message.len());
             assert!(!message.contains(char::is_control), "{message:?}");
+            false
         }
     }
 }
 
-fn fuzz(files: &[&[u8]], read: impl Fn(&mut Pcg64, &[u8])) {
-    fuzz_with(|random| mutate(random, files), read);
+/// The files here and in the folder of networks whose endings tell the format, in the order of their
+/// names.
+fn fixtures(format: &Format) -> Vec<Vec<u8>> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = [here.join("tests/fixtures"), here.join("../../experiments/networks")];
+    let all = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+    let mut paths: Vec<PathBuf> = all.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| {
+        let ending = path.extension().unwrap_or_default().to_str().unwrap();
+        format.endings.contains(&ending)
+    });
+    paths.sort();
+    paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }
 
-fn fuzz_archives(archives: &[&[u8]], read: impl Fn(&mut Pcg64, &[u8])) {
-    let files: Vec<_> = archives.iter().map(|archive| unpacked(archive)).collect();
-    let mutate = |random: &mut Pcg64| match below(random, 4) {
-        0 => mutate(random, archives),
-        _ => mutate_within(random, &files),
-    };
-    fuzz_with(mutate, read);
-}
-
-fn fuzz_with(mutate: impl Fn(&mut Pcg64) -> Vec<u8>, read: impl Fn(&mut Pcg64, &[u8])) {
-    let seconds = Duration::from_secs(setting("EIGENSYNC_FUZZ_SECONDS", 1));
-    let seed = setting("EIGENSYNC_FUZZ_SEED", 0);
+/// Reads damaged files of a format for so long; how many were read, and how many refused.
+fn fuzz(format: &Format, (seed, time): (u64, Duration)) -> [usize; 2] {
+    let name = format.name;
+    let files = fixtures(format);
+    assert!(!files.is_empty(), "{name} has no file among the fixtures");
+    let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
+    let archives: Vec<_> = files.iter().filter(|file| file.starts_with(ARCHIVE)).collect();
+    let archives: Vec<_> = archives.into_iter().map(|file| unpacked(file)).collect();
     let start = Instant::now();
-    let mut round = 0;
-    while start.elapsed() < seconds {
+    let (mut round, mut outcomes) = (0, [0, 0]);
+    while start.elapsed() < time {
         let mut random = Pcg64::seed_from_u64((seed << 40) ^ round);
-        let file = mutate(&mut random);
+        let file = match !archives.is_empty() && below(&mut random, 4) > 0 {
+            true => mutate_within(&mut random, &archives),
+            false => mutate(&mut random, &files),
+        };
+        let options = options(&mut random);
         let began = Instant::now();
-        let outcome = catch_unwind(AssertUnwindSafe(|| read(&mut random, &file)));
+        let outcome = catch_unwind(AssertUnwindSafe(|| check(format, &file, &options)));
         let shown = || String::from_utf8_lossy(&file[..file.len().min(2000)]).into_owned();
-        assert!(outcome.is_ok(), "round {round} of seed {seed}: {:?}\n{}", file, shown());
-        assert!(began.elapsed() < SLOW, "round {round} took {:?}: {}", began.elapsed(), shown());
+        let told = || format!("{name}, round {round} of seed {seed}: {options:?}");
+        let Ok(is_read) = outcome else { panic!("{}: {file:?}\n{}", told(), shown()) };
+        assert!(began.elapsed() < SLOW, "{} took {:?}: {}", told(), began.elapsed(), shown());
+        outcomes[usize::from(!is_read)] += 1;
         round += 1;
     }
-    println!("{round} files");
+    println!("{name}: {} files read, {} refused", outcomes[0], outcomes[1]);
+    outcomes
 }
 
 #[test]
-fn edge_lists_are_read_or_refused() {
-    let files: &[&[u8]] = &[
-        include_bytes!("../../../experiments/networks/nepal.edges"),
-        include_bytes!("../../../experiments/networks/six-node.edges"),
-        b"\"area 17\" 4, 2.5 # comment\n5\n% more\na;b c\n",
-    ];
-    fuzz(files, |_, file| check(edge_list::read(file).map(RawNetwork::from)));
-}
-
-#[test]
-fn matrix_market_files_are_read_or_refused() {
-    let files = files![
-        "coordinate_symmetric.mtx",
-        "coordinate_general.mtx",
-        "coordinate_pattern.mtx",
-        "array_general.mtx",
-        "array_symmetric.mtx"
-    ];
-    fuzz(files, |random, file| check(matrix_market::read(file, &layout(random))));
-}
-
-#[test]
-fn dense_matrices_are_read_or_refused() {
-    let files = files!["dense.txt", "dense.csv", "labelled.csv"];
-    fuzz(files, |random, file| check(dense::read(file, &layout(random))));
-}
-
-#[test]
-fn graphml_files_are_read_or_refused() {
-    let files = files!["undirected.graphml", "directed.graphml"];
-    let name = |random: &mut Pcg64, name: &str| (below(random, 2) == 0).then(|| name.to_owned());
-    fuzz(files, |random, file| {
-        let coordinates = ["x", "y", "z"].map(str::to_owned);
-        let attributes = graphml::Attributes {
-            weight: name(random, "strength"),
-            label: name(random, "full"),
-            group: name(random, "area"),
-            position: coordinates[..below(random, 4)].to_vec(),
-        };
-        check(graphml::read(file, &attributes));
+fn damaged_files_of_every_format_are_read_or_refused() {
+    let seconds = Duration::from_secs(setting("EIGENSYNC_FUZZ_SECONDS", 1));
+    let seed = setting("EIGENSYNC_FUZZ_SEED", 0);
+    let outcomes: Vec<_> = thread::scope(|scope| {
+        let fuzz = |format| move || fuzz(format, (seed, seconds));
+        let threads: Vec<_> = FORMATS.iter().map(|&format| scope.spawn(fuzz(format))).collect();
+        threads.into_iter().map(|thread| thread.join().unwrap()).collect()
     });
-}
-
-#[test]
-fn npy_files_are_read_or_refused() {
-    let files = files![
-        "c_float64.npy",
-        "fortran_float32.npy",
-        "big_endian_int16.npy",
-        "uint64.npy",
-        "bool.npy",
-        "float16.npy",
-        "complex.npy",
-        "three_dimensional.npy"
-    ];
-    fuzz(files, |random, file| check(numpy::read_npy(file, &layout(random))));
-}
-
-#[test]
-fn npz_archives_are_read_or_refused() {
-    let files = files!["plain.npz", "compressed.npz", "csr.npz", "csc.npz", "coo.npz", "bsr.npz"];
-    fuzz_archives(files, |random, file| {
-        let name = (below(random, 2) == 0).then_some("structural");
-        check(numpy::read_npz(Cursor::new(file), name, &layout(random)));
-    });
-}
-
-#[test]
-fn mat_files_are_read_or_refused() {
-    let files = files!["plain.mat", "compressed.mat", "version4.mat"];
-    let names = [None, Some("structural"), Some("counts"), Some("mask"), Some("sparse")];
-    fuzz(files, |random, file| {
-        let name = names[below(random, names.len())];
-        check(matlab::read(file, name, &layout(random)));
-    });
-}
-
-#[test]
-fn tvb_archives_are_read_or_refused() {
-    let files = files!["tvb_regions.zip", "tvb_parcels.zip"];
-    fuzz_archives(files, |random, file| check(tvb::read(Cursor::new(file), &layout(random))));
+    for (format, [n_read, n_refused]) in FORMATS.iter().zip(outcomes) {
+        assert!(n_read > 0 && n_refused > 0, "{}: {n_read} read, {n_refused} refused", format.name);
+    }
 }

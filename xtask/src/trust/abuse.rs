@@ -86,7 +86,6 @@ prepare = ["drop_self_loops", { symmetrise = "max" }, { threshold = 0.0 }, "larg
 
 [network.file]
 path = "NETWORK"
-format = "FORMAT"
 
 [oscillator.lorenz]
 
@@ -104,25 +103,12 @@ transient = 5.0
 average = 20.0
 "#;
 
-/// Formats by the endings of fixtures.
-const FORMATS: [(&str, &str); 9] = [
-    ("edges", "edge_list"),
-    ("mtx", "matrix_market"),
-    ("graphml", "graphml"),
-    ("csv", "dense"),
-    ("txt", "dense"),
-    ("npy", "npy"),
-    ("npz", "npz"),
-    ("mat", "matlab"),
-    ("zip", "tvb"),
-];
-
 /// Damaged experiment files: our own, which are run, and those of the project, which are checked.
 pub fn experiments(trial: &mut Trial) -> Result<(), String> {
     let own: Vec<String> =
         SOURCES.iter().map(|table| EXPERIMENT.replace("NETWORK", table)).collect();
     let mut all = own.clone();
-    for file in files(&root().join("experiments"), &["toml"])? {
+    for file in files(&root().join("experiments"), |ending| ending == "toml")? {
         all.push(fs::read_to_string(file).map_err(|error| error.to_string())?);
     }
     let folder = trial.folder.join("try");
@@ -144,21 +130,19 @@ pub fn experiments(trial: &mut Trial) -> Result<(), String> {
     Ok(())
 }
 
-/// Damaged networks, in all formats.
+/// Damaged networks, in all formats of which there are fixtures; their endings tell them.
 pub fn networks(trial: &mut Trial) -> Result<(), String> {
-    let endings = FORMATS.map(|(ending, _)| ending);
-    let mut fixtures = files(&root().join("crates/graph/tests/fixtures"), &endings)?;
-    fixtures.extend(files(&root().join("experiments/networks"), &endings)?);
+    let mut fixtures = files(&root().join("crates/graph/tests/fixtures"), |ending| ending != "py")?;
+    fixtures.extend(files(&root().join("experiments/networks"), |_| true)?);
     let folder = trial.folder.join("try");
     while trial.goes_on() {
         fresh(&folder)?;
         let fixture = trial.random.of(&fixtures).clone();
         let ending = fixture.extension().unwrap_or_default().to_string_lossy().into_owned();
-        let format = FORMATS.iter().find(|(known, _)| *known == ending).map_or("", |f| f.1);
         let mut bytes = fs::read(&fixture).map_err(|error| error.to_string())?;
         mutation::damage(&mut bytes, &mut trial.random);
         let name = format!("network.{ending}");
-        let text = READER.replace("NETWORK", &name).replace("FORMAT", format);
+        let text = READER.replace("NETWORK", &name);
         fs::write(folder.join(&name), bytes)
             .and_then(|()| fs::write(folder.join("damaged.toml"), text))
             .map_err(|error| error.to_string())?;
@@ -248,11 +232,11 @@ fn numbers_are_finite(results: &Path) -> Result<(), String> {
 }
 
 /// Files of a folder with one of these endings, sorted.
-fn files(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, String> {
+fn files(folder: &Path, is_wanted: impl Fn(&str) -> bool) -> Result<Vec<PathBuf>, String> {
     let paths = names(folder)?.into_iter().map(|name| folder.join(name));
     let has = |path: &PathBuf| {
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        endings.contains(&ending.as_str())
+        is_wanted(&ending)
     };
     Ok(paths.filter(has).collect())
 }

@@ -1,9 +1,13 @@
 //! Files changed at random, by the hundred: whatever they ask for, the command answers within seconds and
 //! in bounded memory, with results or with one message that names the file.
 
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::support::{SIX_NODES, Workplace, tiny};
+use eigensync::graph::formats::{FORMATS, Format};
+
+use crate::support::{Workplace, tiny};
 
 /// Memory that a run may take, in kilobytes of address space.
 const MOST_MEMORY: u64 = 2_000_000;
@@ -200,35 +204,18 @@ fn costs_little(place: &Workplace) -> bool {
 fn network_files_changed_at_random_are_answered() {
     let place = Workplace::new();
     place.write("m.toml", "");
-    let graphml = concat!(
-        "<graphml><key id=\"w\" for=\"edge\" attr.name=\"weight\" attr.type=\"double\"/>",
-        "<graph edgedefault=\"undirected\"><node id=\"1\"/><node id=\"2\"/><node id=\"3\"/>",
-        "<edge source=\"1\" target=\"2\"><data key=\"w\">2.5</data></edge>",
-        "<edge source=\"2\" target=\"3\"/></graph></graphml>"
-    );
-    let bases: [(&str, &str, Vec<u8>); 5] = [
-        ("edges", "", SIX_NODES.into()),
-        ("mtx", "", "%%MatrixMarket matrix coordinate real symmetric\n4 4 4\n2 1 1\n3 2 1.5\n4 3 1\n4 1 2\n".into()),
-        ("csv", "", "a,b,c\n0,1,2\n1,0,3.5\n2,3.5,0\n".into()),
-        ("graphml", "", graphml.into()),
-        ("npy", "", npy()),
-    ];
+    let formats: Vec<_> = FORMATS.iter().map(|format| (format, fixtures(format))).collect();
     for seed in 0..count(60, 1000) {
         let mut random = Random::new(seed + 77);
-        let (ending, more, base) = &bases[seed as usize % bases.len()];
+        let (format, files) = &formats[seed as usize % formats.len()];
+        let base = &files[random.below(files.len())];
         let content = match std::str::from_utf8(base) {
             Ok(text) => changed_network(text, &mut random),
             Err(_) => damaged(base.clone(), &mut random),
         };
-        let file = format!("network.{ending}");
+        let file = format!("network.{}", format.ending());
         place.write(&file, content);
-        let format = match *ending {
-            "edges" => "edge_list",
-            "mtx" => "matrix_market",
-            "csv" => "dense",
-            other => other,
-        };
-        let table = format!("path = \"{file}\"\nformat = \"{format}\"{more}");
+        let table = format!("path = \"{file}\"\nformat = \"{}\"", format.name);
         let experiment = tiny().replace("path = \"networks/six-node.edges\"", &table);
         let experiment = experiment.without("sweep.error_to").without("sweep.clusters");
         place.write("m.toml", experiment.without_table("claims.integers").0);
@@ -266,14 +253,13 @@ fn changed_network(text: &str, random: &mut Random) -> Vec<u8> {
     damaged(text.into_bytes(), random)
 }
 
-/// Three nodes as NumPy writes them.
-fn npy() -> Vec<u8> {
-    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }";
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend(118u16.to_le_bytes());
-    bytes.extend(format!("{header:<117}\n").bytes());
-    bytes.extend(
-        [0.0, 1.0, 2.0, 1.0, 0.0, 0.5, 2.0, 0.5, 0.0f64].iter().flat_map(|x| x.to_le_bytes()),
-    );
-    bytes
+/// The files of a format that its readers are tested with.
+fn fixtures(format: &Format) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../graph/tests/fixtures");
+    let entries = fs::read_dir(folder).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == format.ending()));
+    paths.sort();
+    assert!(!paths.is_empty(), "no file of {} among the fixtures", format.name);
+    paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }

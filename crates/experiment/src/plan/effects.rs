@@ -2,7 +2,8 @@
 //! told that it would not come.
 
 use super::Checker;
-use crate::spec::{FigureKind, Format, MethodKind, NetworkSpec};
+use crate::spec::{FigureKind, MethodKind, NetworkSpec};
+use graph::formats::{Choice, FORMATS};
 use user::Result;
 
 /// Keys of `[figure]` beside `kind`.
@@ -15,6 +16,14 @@ const FIGURE_KEYS: [&str; 8] = [
     "source_transitions",
     "error_scale",
     "spread",
+];
+
+/// Keys of `[network.file]` that files of some formats have no use for.
+const FILE_KEYS: [(Choice, &str); 4] = [
+    (Choice::Variable, "variable"),
+    (Choice::Attributes, "attributes"),
+    (Choice::Block, "block"),
+    (Choice::Rows, "rows"),
 ];
 
 impl Checker<'_> {
@@ -83,20 +92,30 @@ impl Checker<'_> {
 
     fn of_file(&self) -> Result<()> {
         let NetworkSpec::File(spec) = &self.experiment.network else { return Ok(()) };
-        let table = "network.file";
-        if !matches!(spec.format(), Format::Npz | Format::Matlab) {
-            let reason = "files of this format hold one network; those of npz and matlab may hold \
-                          several matrices";
-            self.without_effect(table, "variable", reason)?;
-        }
-        if !matches!(spec.format(), Format::Graphml) {
-            self.without_effect(table, "attributes", "only files of graphml have attributes")?;
-        }
-        if matches!(spec.format(), Format::EdgeList | Format::Graphml) {
-            let reason = "files of this format hold links, not the rows and columns of a matrix";
-            self.without_effect(table, "block", reason)?;
-            self.without_effect(table, "rows", reason)?;
+        for (choice, key) in FILE_KEYS.into_iter().filter(|(choice, _)| !spec.format().has(*choice))
+        {
+            let those = with(choice);
+            let reason = match choice {
+                Choice::Variable => format!(
+                    "files of this format hold one network; those of {those} may hold several \
+                     matrices"
+                ),
+                Choice::Attributes => format!("only files of {those} have attributes"),
+                Choice::Block | Choice::Rows => {
+                    "files of this format hold links, not the rows and columns of a matrix".into()
+                }
+            };
+            self.without_effect("network.file", key, &reason)?;
         }
         Ok(())
+    }
+}
+
+/// The names of the formats whose files leave this open.
+fn with(choice: Choice) -> String {
+    let names: Vec<_> = FORMATS.iter().filter(|f| f.has(choice)).map(|f| f.name).collect();
+    match &names[..] {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        _ => names.concat(),
     }
 }

@@ -5,7 +5,7 @@ use std::io::{BufReader, Read, Seek};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use graph::formats::{self, Layout, Rows};
+use graph::formats::{self, Attributes, Layout, Options, Rows};
 use graph::generators::{
     LinkProbability, communities, expected_hierarchical_links, expected_links, hierarchical,
 };
@@ -15,7 +15,7 @@ use graph::{Group, Network, RawNetwork};
 use super::Checker;
 use super::watched::Watched;
 use crate::spec::{
-    CommunitiesSpec, FileSpec, Format, GroupsSpec, HierarchicalSpec, NetworkSpec, RowsSpec,
+    AttributesSpec, CommunitiesSpec, FileSpec, GroupsSpec, HierarchicalSpec, NetworkSpec, RowsSpec,
     StepSpec, SymmetriseSpec,
 };
 use user::files;
@@ -101,7 +101,7 @@ impl Checker<'_> {
         }
         let (path, source) = self.open(key, &spec.path, spec.fetched_by.as_deref())?;
         let n_bytes = source.metadata().map_or(0, |metadata| metadata.len());
-        if matches!(spec.format(), Format::EdgeList | Format::MatrixMarket | Format::Graphml) {
+        if spec.format().lists_links {
             self.readable(key, n_bytes)?;
         }
         self.stages.measured("reading", n_bytes, |progress| {
@@ -109,40 +109,15 @@ impl Checker<'_> {
         })
     }
 
-    fn read(&self, spec: &FileSpec, path: &Path, source: impl Read + Seek) -> Result<RawNetwork> {
-        let key = "network.file.path";
-        let layout = self.layout(spec)?;
-        let variable = spec.variable.as_deref();
-        let failed = |error: &dyn std::fmt::Display| {
-            self.problem(key, format!("names {}: {error}", shown(path)))
-        };
-        match spec.format() {
-            Format::EdgeList => {
-                formats::edge_list::read(source).map(RawNetwork::from).map_err(|e| failed(&e))
-            }
-            Format::MatrixMarket => {
-                formats::matrix_market::read(source, &layout).map_err(|e| failed(&e))
-            }
-            Format::Graphml => {
-                let spec = spec.attributes.clone();
-                let attributes = formats::graphml::Attributes {
-                    weight: spec.weight,
-                    label: spec.label,
-                    group: spec.group,
-                    position: spec.position,
-                };
-                formats::graphml::read(source, &attributes).map_err(|e| failed(&e))
-            }
-            Format::Dense => formats::dense::read(source, &layout).map_err(|e| failed(&e)),
-            Format::Npy => formats::numpy::read_npy(source, &layout).map_err(|e| failed(&e)),
-            Format::Npz => {
-                formats::numpy::read_npz(source, variable, &layout).map_err(|e| failed(&e))
-            }
-            Format::Tvb => formats::tvb::read(source, &layout).map_err(|e| failed(&e)),
-            Format::Matlab => {
-                formats::matlab::read(source, variable, &layout).map_err(|e| failed(&e))
-            }
-        }
+    fn read(
+        &self,
+        spec: &FileSpec,
+        path: &Path,
+        mut source: impl Read + Seek,
+    ) -> Result<RawNetwork> {
+        (spec.format().read)(&mut source, &self.options(spec)?).map_err(|error| {
+            self.problem("network.file.path", format!("names {}: {error}", shown(path)))
+        })
     }
 
     /// Opens a file that an experiment names. One that is fetched by a command and is not there leaves
@@ -166,7 +141,8 @@ impl Checker<'_> {
         Ok((path, source))
     }
 
-    fn layout(&self, spec: &FileSpec) -> Result<Layout> {
+    /// What the file says of how it is to be read.
+    fn options(&self, spec: &FileSpec) -> Result<Options> {
         let block = match spec.block {
             None => None,
             Some(block) => {
@@ -177,7 +153,12 @@ impl Checker<'_> {
             RowsSpec::Driven => Rows::Driven,
             RowsSpec::Driving => Rows::Driving,
         };
-        Ok(Layout { rows, block })
+        let AttributesSpec { weight, label, group, position } = spec.attributes.clone();
+        Ok(Options {
+            variable: spec.variable.clone(),
+            attributes: Attributes { weight, label, group, position },
+            layout: Layout { rows, block },
+        })
     }
 
     fn communities(&self, spec: &CommunitiesSpec) -> Result<Network> {

@@ -1,15 +1,17 @@
 //! `[network.…]`, `prepare`, `[groups.…]` and `[regions]`: where the network comes from, what is made
 //! of it before it is used, and how its nodes belong together.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use eigensync::{Bound, RegionBounds};
-
+use graph::formats::edge_list;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 use claims::Name;
+
+use super::format::Format;
 
 /// Where the network comes from.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -36,7 +38,7 @@ pub struct FileSpec {
     pub given: Option<Arc<[u8]>>,
     /// Which matrix of a file that holds several.
     pub variable: Option<String>,
-    /// Which attributes of a GraphML file are what.
+    /// Which attributes of nodes and links are what.
     #[serde(default)]
     pub attributes: AttributesSpec,
     /// First and last row (and column) to take of a matrix, counted from 1.
@@ -52,43 +54,12 @@ pub struct FileSpec {
 impl FileSpec {
     /// The format that is named or that the ending tells; an edge list where it tells none.
     pub fn format(&self) -> Format {
-        self.format.or_else(|| Format::of_ending(&self.path)).unwrap_or_default()
+        let told = self.format.or_else(|| Format::of_ending(&self.path));
+        told.unwrap_or(Format(&edge_list::FORMAT))
     }
 }
 
-impl Format {
-    /// The format of files that end so, if there is one.
-    pub fn of_ending(path: &Path) -> Option<Self> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        Some(match &ending[..] {
-            "mtx" => Self::MatrixMarket,
-            "graphml" | "xml" => Self::Graphml,
-            "csv" | "dat" => Self::Dense,
-            "npy" => Self::Npy,
-            "npz" => Self::Npz,
-            "mat" => Self::Matlab,
-            "zip" => Self::Tvb,
-            "edges" | "edgelist" | "el" | "txt" | "tsv" | "" => Self::EdgeList,
-            _ => return None,
-        })
-    }
-
-    /// An ending that tells it.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::EdgeList => "edges",
-            Self::MatrixMarket => "mtx",
-            Self::Graphml => "graphml",
-            Self::Dense => "csv",
-            Self::Npy => "npy",
-            Self::Npz => "npz",
-            Self::Matlab => "mat",
-            Self::Tvb => "zip",
-        }
-    }
-}
-
-/// Names of GraphML attributes; those left out are not read.
+/// Names of attributes of nodes and links; those left out are not read.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttributesSpec {
@@ -100,30 +71,6 @@ pub struct AttributesSpec {
     pub group: Option<String>,
     /// Two or three numbers of a node that are its position.
     pub position: Vec<String>,
-}
-
-/// Formats of networks.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
-pub enum Format {
-    /// A link a line: two labels and, if it is not 1, a weight.
-    #[default]
-    EdgeList,
-    /// Matrix Market, coordinate or array.
-    MatrixMarket,
-    /// GraphML; `attributes` names what is read beside nodes and links.
-    Graphml,
-    /// A full matrix as text: blanks, tabs, commas or semicolons between numbers.
-    Dense,
-    /// A NumPy array, `.npy`.
-    Npy,
-    /// An archive of NumPy arrays or of one SciPy sparse matrix, `.npz`.
-    Npz,
-    /// A MATLAB file of level 5, `.mat`.
-    Matlab,
-    /// A connectivity archive of The Virtual Brain, `.zip`.
-    Tvb,
 }
 
 /// Which nodes the rows of a matrix are.

@@ -20,11 +20,22 @@ use std::ops::Range;
 use bzip2::read::MultiBzDecoder;
 use thiserror::Error;
 
-use super::archive::{Archive, Limited, MAX_UNPACKED_TEXT, listed};
+use super::archive::{Archive, ArchiveError, Limited, MAX_UNPACKED_TEXT, listed};
 use super::dense::{self, DenseError};
-use super::text::{Lines, quoted};
-use super::{ArchiveError, Layout, MatrixError, TextError};
+use super::format::{Choice, Format};
+use super::matrix::{Layout, MatrixError};
+use super::text::{Lines, TextError, quoted};
 use crate::{GraphError, Group, RawNetwork};
+
+/// Connectivity archives.
+pub const FORMAT: Format = Format {
+    name: "tvb",
+    summary: "A connectivity archive of The Virtual Brain, `.zip`",
+    endings: &["zip"],
+    lists_links: false,
+    choices: &[Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read(source, &options.layout)?),
+};
 
 /// Most centres: N rows of N values take 2 N² bytes or more.
 const MAX_CENTRES: usize = 23_170;

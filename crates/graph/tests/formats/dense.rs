@@ -24,7 +24,7 @@ const TWO: [[f64; 2]; 2] = [[0.0, 1.0], [2.5, 0.0]];
 
 #[test]
 fn numpys_text_gives_the_matrix_that_was_written() {
-    let network = read(fixture!("dense.txt"), &whole()).unwrap();
+    let network = read(fixture!("dense.dat"), &whole()).unwrap();
     assert_eq!(dense(&network), SYMMETRIC);
     assert_eq!(network.labels(), ["1", "2", "3", "4"]);
     assert_eq!(dense(&read(fixture!("dense.csv"), &whole()).unwrap()), DIRECTED);

@@ -1,7 +1,8 @@
 //! GraphML files.
 
 use graph::Group;
-use graph::formats::graphml::{Attributes, read};
+use graph::formats::Attributes;
+use graph::formats::graphml::read;
 
 use super::{dense, fixture, refusal};
 

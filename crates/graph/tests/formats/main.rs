@@ -7,6 +7,7 @@ mod graphml;
 mod matlab;
 mod matrix_market;
 mod numpy;
+mod table;
 mod tvb;
 
 use graph::RawNetwork;

@@ -18,10 +18,20 @@ use std::io::Read;
 
 pub use self::error::DenseError;
 
-use super::Layout;
-use super::matrix::MatrixBuilder;
+use super::format::{Choice, Format};
+use super::matrix::{Layout, MatrixBuilder};
 use super::text::{Lines, quoted};
 use crate::RawNetwork;
+
+/// Full matrices as text.
+pub const FORMAT: Format = Format {
+    name: "dense",
+    summary: "A full matrix as text: blanks, tabs, commas or semicolons between numbers",
+    endings: &["csv", "dat"],
+    lists_links: false,
+    choices: &[Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read(source, &options.layout)?),
+};
 
 /// Longest line of a matrix in bytes: some 600,000 values of 25 characters.
 pub const MAX_ROW_BYTES: usize = 16 * 1024 * 1024;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::GraphError;
-use crate::formats::TextError;
+use crate::formats::text::TextError;
 
 /// Why an edge list could not be read. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Error)]

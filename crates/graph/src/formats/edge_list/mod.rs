@@ -22,11 +22,22 @@ use std::io::Read;
 
 pub use self::error::EdgeListError;
 use self::fields::{Field, Fields};
+use super::format::Format;
 use super::labels::Labels;
 use super::plain::{Plain, plain};
 use super::text::{Lines, quoted};
 use crate::network::first_repeated;
 use crate::{GraphError, Network};
+
+/// Edge lists.
+pub const FORMAT: Format = Format {
+    name: "edge_list",
+    summary: "A link a line: two labels and, if it is not 1, a weight",
+    endings: &["edges", "edgelist", "el", "txt", "tsv", ""],
+    lists_links: true,
+    choices: &[],
+    read: |source, _| Ok(read(source)?.into()),
+};
 
 /// Reads an undirected network from an edge list; the module describes the format.
 ///

@@ -6,20 +6,8 @@ use std::io::Read;
 use super::document::{Document, Element};
 use super::error::GraphMlError;
 use crate::formats::archive::listed;
+use crate::formats::options::Attributes;
 use crate::formats::text::quoted;
-
-/// Which attributes of nodes and edges are read, by the names that the file declares for them.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Attributes {
-    /// Number of an edge that is its weight; without it every edge has weight 1.
-    pub weight: Option<String>,
-    /// Attribute of a node that is its label; without it the label is the node's `id`.
-    pub label: Option<String>,
-    /// Attribute of a node that names its group; a node without it is in none.
-    pub group: Option<String>,
-    /// Numbers of a node that are its position: two or three, or none for no positions.
-    pub position: Vec<String>,
-}
 
 /// What an attribute belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -25,9 +25,20 @@ use std::io::Read;
 use self::document::Document;
 pub use self::error::GraphMlError;
 use self::graph::Graph;
-pub use self::keys::Attributes;
 use self::keys::Keys;
+use super::format::{Choice, Format};
+use super::options::Attributes;
 use crate::RawNetwork;
+
+/// GraphML.
+pub const FORMAT: Format = Format {
+    name: "graphml",
+    summary: "GraphML; `attributes` names what is read beside nodes and links",
+    endings: &["graphml", "xml"],
+    lists_links: true,
+    choices: &[Choice::Attributes],
+    read: |source, options| Ok(read(source, &options.attributes)?),
+};
 
 /// Reads a network from the one graph of a GraphML file; the module describes the format.
 ///

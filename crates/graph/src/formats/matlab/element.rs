@@ -8,8 +8,8 @@ use std::io::{self, Read};
 
 use super::error::MatlabError;
 use crate::formats::binary::{ByteOrder, Interrupted, Number, fill, read_numbers};
+use crate::formats::matrix::{MAX_ENTRIES, MatrixError};
 use crate::formats::text::quoted;
-use crate::formats::{MAX_ENTRIES, MatrixError};
 
 /// Element type of a variable (miMATRIX).
 pub(super) const MATRIX: u32 = 14;

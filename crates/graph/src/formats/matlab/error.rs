@@ -4,7 +4,7 @@ use std::io;
 
 use thiserror::Error;
 
-use crate::formats::MatrixError;
+use crate::formats::matrix::MatrixError;
 
 /// Why a MAT-file could not be read. Offsets count bytes from the beginning of the file, or,
 /// within [`MatlabError::InVariable`] of a compressed one, of what it unpacks to.

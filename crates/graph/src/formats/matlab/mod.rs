@@ -13,13 +13,23 @@ use std::io::{self, Read};
 
 use self::element::{Bytes, COMPRESSED, Class, MATRIX, Tag, Variable};
 pub use self::error::MatlabError;
-use super::Layout;
 use super::archive::{Limited, MAX_UNPACKED_BYTES, listed, most_kept};
 use super::binary::{ByteOrder, fill};
-use super::matrix::{MatrixBuilder, as_index};
+use super::format::{Choice, Format};
+use super::matrix::{Layout, MatrixBuilder, as_index};
 use super::text::quoted;
 use crate::RawNetwork;
 use flate2::read::ZlibDecoder;
+
+/// MATLAB's files of level 5.
+pub const FORMAT: Format = Format {
+    name: "matlab",
+    summary: "A MATLAB file of level 5, `.mat`",
+    endings: &["mat"],
+    lists_links: false,
+    choices: &[Choice::Variable, Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read(source, options.variable.as_deref(), &options.layout)?),
+};
 
 const HEADER_BYTES: u64 = 128;
 

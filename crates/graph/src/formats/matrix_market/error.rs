@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use crate::formats::{MatrixError, TextError};
+use crate::formats::matrix::MatrixError;
+use crate::formats::text::TextError;
 
 /// Why a Matrix Market file could not be read. Lines and columns of text count from 1.
 #[derive(Debug, Error)]

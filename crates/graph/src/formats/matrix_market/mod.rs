@@ -21,11 +21,21 @@ use std::io::Read;
 
 pub use self::error::MatrixMarketError;
 use self::words::{Field, words};
-use super::matrix::{MatrixBuilder, as_index};
+use super::format::{Choice, Format};
+use super::matrix::{Layout, MatrixBuilder, as_index};
 use super::plain::{Plain, plain};
-use super::text::{Lines, quoted};
-use super::{Layout, TextError};
+use super::text::{Lines, TextError, quoted};
 use crate::RawNetwork;
+
+/// Matrix Market.
+pub const FORMAT: Format = Format {
+    name: "matrix_market",
+    summary: "Matrix Market, coordinate or array",
+    endings: &["mtx"],
+    lists_links: true,
+    choices: &[Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read(source, &options.layout)?),
+};
 
 /// Reads a network from a Matrix Market file; the module describes the format.
 ///

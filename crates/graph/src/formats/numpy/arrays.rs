@@ -6,8 +6,8 @@ use super::error::NumpyError;
 use super::header::{Element, Header};
 use crate::formats::archive::{Archive, MAX_UNPACKED_BYTES, listed, most_kept};
 use crate::formats::binary::{Interrupted, Number, fill, read_numbers};
+use crate::formats::matrix::{MAX_ENTRIES, MatrixError};
 use crate::formats::text::quoted;
-use crate::formats::{MAX_ENTRIES, MatrixError};
 
 /// The arrays of an `.npz`, by name.
 pub(super) struct Arrays<R> {

@@ -4,7 +4,8 @@ use std::io;
 
 use thiserror::Error;
 
-use crate::formats::{ArchiveError, MatrixError};
+use crate::formats::archive::ArchiveError;
+use crate::formats::matrix::MatrixError;
 
 /// Why a NumPy file could not be read.
 #[derive(Debug, Error)]

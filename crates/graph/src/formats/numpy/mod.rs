@@ -15,10 +15,30 @@ use std::io::{Read, Seek};
 
 use self::arrays::{Array, Arrays};
 pub use self::error::NumpyError;
-use super::Layout;
 use super::archive::listed;
-use super::matrix::{MatrixBuilder, as_index};
+use super::format::{Choice, Format};
+use super::matrix::{Layout, MatrixBuilder, as_index};
 use crate::RawNetwork;
+
+/// Single arrays.
+pub const NPY: Format = Format {
+    name: "npy",
+    summary: "A NumPy array, `.npy`",
+    endings: &["npy"],
+    lists_links: false,
+    choices: &[Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read_npy(source, &options.layout)?),
+};
+
+/// Archives of arrays.
+pub const NPZ: Format = Format {
+    name: "npz",
+    summary: "An archive of NumPy arrays or of one SciPy sparse matrix, `.npz`",
+    endings: &["npz"],
+    lists_links: false,
+    choices: &[Choice::Variable, Choice::Block, Choice::Rows],
+    read: |source, options| Ok(read_npz(source, options.variable.as_deref(), &options.layout)?),
+};
 
 /// Reads a network from a square `.npy` array of booleans, integers or real numbers.
 ///

@@ -10,9 +10,8 @@ use super::error::NumpyError;
 use super::header::{Element, Header};
 use crate::RawNetwork;
 use crate::formats::binary::fill;
-use crate::formats::matrix::{MatrixBuilder, as_index};
+use crate::formats::matrix::{Layout, MatrixBuilder, MatrixError, as_index};
 use crate::formats::text::quoted;
-use crate::formats::{Layout, MatrixError};
 
 /// Longest name of a format that is read.
 const MAX_FORMAT_BYTES: u64 = 16;
