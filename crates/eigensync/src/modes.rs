@@ -7,7 +7,7 @@ use msf::StableRegion;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-use spectra::{ARPACK_NODES, Modes, Request, SolverChoice};
+use spectra::{ARPACK_NODES, Modes, Request, Solver};
 
 /// Tolerance of networks that are large, of more than [`ARPACK_NODES`]; in others solvers go to the
 /// limit of rounding at no cost to speak of.
@@ -57,7 +57,7 @@ impl WantedModes {
     pub fn new(
         (n_nodes, n_components): (usize, usize),
         wanted: Option<Wanted>,
-        solver: SolverChoice,
+        solver: Option<Solver>,
         tolerance: Option<f64>,
     ) -> Self {
         let by_size = if n_nodes > ALL_MODES { Wanted::Auto } else { Wanted::All };
@@ -109,7 +109,7 @@ impl WantedModes {
 
     /// Whether matrices of N × N numbers will be taken.
     pub fn is_dense(&self, n_nodes: usize) -> bool {
-        matches!(self.request.solver, SolverChoice::Dense) || self.most_modes(n_nodes) > n_nodes / 2
+        self.request.solver.is_some_and(Solver::is_dense) || self.most_modes(n_nodes) > n_nodes / 2
     }
 
     /// The modes asked for, or by default.

@@ -7,7 +7,6 @@ use dynamics::{
 };
 use graph::{CouplingMatrix, Network, Normalization};
 use msf::{Node, Refinement};
-use spectra::SolverChoice;
 
 use crate::{Bound, WantedModes};
 
@@ -90,12 +89,7 @@ impl Study {
                 seed: 1,
                 instruction_set: InstructionSet::best(),
             },
-            modes: WantedModes::new(
-                (network.n_nodes(), n_components),
-                None,
-                SolverChoice::Auto,
-                None,
-            ),
+            modes: WantedModes::new((network.n_nodes(), n_components), None, None, None),
             network,
             rule: ClusterRule::Exact,
             regions: None,

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use eigensync::dynamics::{Coupling, Native, Rossler};
 use eigensync::graph::Normalization;
 use eigensync::graph::formats::edge_list;
-use eigensync::spectra::SolverChoice;
+use eigensync::spectra::Solver;
 use eigensync::{Error, Node, Observer, Study, Sweep, Wanted, WantedModes, find};
 
 /// Wants to stop a moment after a stage has begun.
@@ -49,7 +49,7 @@ fn endless() -> Study {
 
 /// A network of 4000 nodes without small separators, of which an iterative solver takes seconds to find
 /// 200 modes.
-fn entangled(solver: SolverChoice) -> Study {
+fn entangled(solver: Solver) -> Study {
     let n_nodes = 4000;
     let other = |node: usize, k: usize| (node * (2 * k + 3) + 97 * k + 1) % n_nodes;
     let all = (0..n_nodes).flat_map(|node| (0..6).map(move |k| (node, other(node, k))));
@@ -59,7 +59,7 @@ fn entangled(solver: SolverChoice) -> Study {
     let network = edge_list::read(text.as_bytes()).unwrap();
     let study = endless();
     let size = (n_nodes, 1);
-    let modes = WantedModes::new(size, Some(Wanted::Leading(200)), solver, None);
+    let modes = WantedModes::new(size, Some(Wanted::Leading(200)), Some(solver), None);
     let entangled = Study::new(network, Normalization::Laplacian, study.node);
     Study { modes, msf: study.msf, ..entangled }
 }
@@ -74,10 +74,10 @@ fn a_study_stops_within_a_second_in_every_long_stage() {
         ("first look at the msf", endless_look),
         ("msf", endless_curve),
         ("sweep", endless()),
-        ("spectrum", entangled(SolverChoice::Chebyshev)),
+        ("spectrum", entangled(Solver::Chebyshev)),
     ];
-    if SolverChoice::Arpack.is_built() {
-        stages.push(("spectrum", entangled(SolverChoice::Arpack)));
+    if Solver::Arpack.is_built() {
+        stages.push(("spectrum", entangled(Solver::Arpack)));
     }
     for (stage, study) in stages {
         let observer = StopIn { stage, since: Mutex::new(None) };

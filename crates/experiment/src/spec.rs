@@ -6,6 +6,7 @@
 mod format;
 mod named;
 mod network;
+mod solver;
 mod values;
 
 use claims::{ClaimSpec, Name};
@@ -18,6 +19,7 @@ pub use network::{
     RegionsSpec, RowsSpec, StepSpec, SymmetriseSpec,
 };
 use serde::{Deserialize, Serialize};
+pub use solver::SolverSpec;
 pub use values::{EvenGrid, Grid, Layout, ThresholdSpec};
 
 /// An experiment: one network, one oscillator, one question.
@@ -94,26 +96,9 @@ pub struct SpectrumSpec {
     /// By default all of a network that is small enough, else `"auto"`.
     pub modes: Option<Wanted>,
     /// Which solver.
-    pub solver: SolverKind,
+    pub solver: SolverSpec,
     /// Largest relative residual; by default 1e-12, for networks that are large 1e-10.
     pub tolerance: Option<f64>,
-}
-
-/// Who finds the modes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SolverKind {
-    /// Chosen from the network: dense, ARPACK, shift-invert or Chebyshev filters.
-    #[default]
-    Auto,
-    /// All modes by faer.
-    Dense,
-    /// ARPACK, asked again until none is missing.
-    Arpack,
-    /// Lanczos and Chebyshev filters.
-    Chebyshev,
-    /// A factorisation, and its inertia.
-    ShiftInvert,
 }
 
 /// `[msf]`: the master stability function.

@@ -58,18 +58,23 @@ pub enum SpectraError {
         /// The shift μ.
         shift: f64,
     },
-    /// ARPACK was asked for in a build without it.
+    /// A solver was asked for in a build without it.
     #[error(
-        "ARPACK was asked for, but this build is without it; build with the feature `arpack` of \
-         `spectra`, or leave the choice of the solver free"
+        "the solver \"{solver}\" was asked for, but this build is without it; build with the feature \
+         `{solver}` of `spectra`, or leave the choice of the solver free"
     )]
-    ArpackNotBuilt,
-    /// ARPACK cannot find all modes.
+    NotBuilt {
+        /// Its name.
+        solver: &'static str,
+    },
+    /// All modes were asked of a solver that cannot find the last one.
     #[error(
-        "{requested} modes of a network of {n_nodes} nodes were asked of ARPACK, which finds at \
+        "{requested} modes of a network of {n_nodes} nodes were asked of \"{solver}\", which finds at \
          most {}; use the dense solver for all", n_nodes - 1
     )]
-    BeyondArpack {
+    AllButOne {
+        /// Its name.
+        solver: &'static str,
         /// Modes asked for.
         requested: usize,
         /// Number of nodes N.

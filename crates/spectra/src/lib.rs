@@ -5,11 +5,13 @@
 //!
 //! Entry: [`leading_modes`]. Knows nothing of what the modes are for.
 
+mod choice;
 mod eigenspace;
 mod error;
 mod progress;
 mod real_modes;
 mod request;
+mod resolve;
 mod spectrum;
 
 mod completeness;
@@ -23,15 +25,19 @@ mod smallest_eigenvalue;
 mod solvers;
 mod subspace;
 mod vectors;
+mod verification;
 
+pub use choice::{ARPACK_NODES, DENSE_NODES};
 pub use eigenspace::{Eigenspace, Eigenvalue};
 pub use error::SpectraError;
 pub use progress::{Advance, Progress};
 pub use real_modes::RealModes;
-pub use request::{ARPACK_NODES, DENSE_NODES, Modes, Request, SolverChoice};
+pub use request::{Modes, Request};
 pub use smallest_eigenvalue::smallest_eigenvalue;
-pub use spectrum::{Solver, Spectrum, Verification};
+pub use solvers::Solver;
+pub use spectrum::Spectrum;
 pub use subspace::subspace_distance;
+pub use verification::Verification;
 
 use graph::CouplingMatrix;
 
@@ -53,8 +59,8 @@ use graph::CouplingMatrix;
 ///
 /// # Errors
 /// [`SpectraError::NoModes`], [`SpectraError::TooManyModes`], [`SpectraError::BadTolerance`],
-/// [`SpectraError::ArpackNotBuilt`], [`SpectraError::BeyondArpack`] and [`SpectraError::TooLargeForArpack`] for requests that cannot be
-/// met; [`SpectraError::NotSymmetric`] for a matrix that is not similar to a symmetric one and
+/// [`SpectraError::NotBuilt`], [`SpectraError::AllButOne`] and [`SpectraError::TooLargeForArpack`] for
+/// requests that cannot be met; [`SpectraError::NotSymmetric`] for a matrix that is not similar to a symmetric one and
 /// [`SpectraError::NegativeLink`] for one with a negative link, which no solver takes yet;
 /// [`SpectraError::NotFinite`] for a matrix that overflows; [`SpectraError::NotConverged`],
 /// [`SpectraError::CompletenessUnproven`] and [`SpectraError::EigenspaceTooLarge`] when the work
@@ -76,7 +82,7 @@ pub fn leading_modes_with(
     progress: Progress<'_>,
 ) -> Result<Spectrum, SpectraError> {
     let w = &matrix::symmetric::symmetric_form(w)?;
-    let plan = request.resolve(w)?;
-    let (found, solver, verification) = solvers::leading(w, &plan, progress)?;
+    let (plan, solver) = request.resolve(w)?;
+    let (found, solver, verification) = choice::leading(w, &plan, solver, progress)?;
     modes::node_space::spectrum(w, found, &plan, (solver, verification))
 }

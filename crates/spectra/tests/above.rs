@@ -3,16 +3,15 @@
 mod common;
 
 use common::{
-    BOTH, ByMode, ITERATIVE, check_eigenvalues, dense, grid, nepal, network, ring_of_cliques,
-    scale, solve, star, with,
+    BOTH, BUILT, ByMode, ITERATIVE, check_eigenvalues, dense, grid, nepal, network,
+    ring_of_cliques, scale, solve, star, with,
 };
 use graph::generators::{LinkProbability, communities, hierarchical};
 use graph::{CouplingMatrix, Network, Normalization};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 use spectra::{
-    Modes, Request, Solver, SolverChoice, SpectraError, Verification, leading_modes,
-    leading_modes_with,
+    Modes, Request, Solver, SpectraError, Verification, leading_modes, leading_modes_with,
 };
 
 /// Eigenvalues of a dense spectrum that count as above a cutoff, whole eigenspaces.
@@ -35,7 +34,7 @@ fn every_solver_finds_all_modes_above_a_cutoff() {
         let w = CouplingMatrix::new(&network, normalization);
         let all = solve(&w, &dense());
         let expected = expected_above(&all, cutoff);
-        for solver in ITERATIVE.iter().copied().chain([SolverChoice::Dense]) {
+        for solver in BUILT.iter().copied() {
             let above = solve(&w, &with(solver, Modes::Above(cutoff)));
             assert_eq!(above.eigenvalues.len(), expected, "{solver:?} above {cutoff}");
             check_eigenvalues(&above, &all.eigenvalues, 1e-11 * scale(&w));
@@ -46,7 +45,7 @@ fn every_solver_finds_all_modes_above_a_cutoff() {
 #[test]
 fn a_cutoff_on_an_eigenvalue_leaves_all_its_copies_out() {
     let w = CouplingMatrix::new(&nepal(), Normalization::Laplacian);
-    for solver in ITERATIVE.iter().copied().chain([SolverChoice::Dense]) {
+    for solver in BUILT.iter().copied() {
         // −8 and −9 have four copies each.
         for (cutoff, expected) in [(-8.0, 3), (-8.0 - 1e-6, 7), (-9.0, 7), (-9.0 + 1e-6, 7)] {
             let above = solve(&w, &with(solver, Modes::Above(cutoff)));
@@ -59,17 +58,17 @@ fn a_cutoff_on_an_eigenvalue_leaves_all_its_copies_out() {
 fn a_cutoff_that_nothing_exceeds_is_refused() {
     let w = CouplingMatrix::new(&nepal(), Normalization::Laplacian);
     for cutoff in [0.0, 1.0] {
-        let refused = leading_modes(&w, &with(SolverChoice::Auto, Modes::Above(cutoff)));
+        let refused = leading_modes(&w, &with(None, Modes::Above(cutoff)));
         assert_eq!(refused.unwrap_err(), SpectraError::NothingAbove { cutoff });
     }
-    let not_a_number = leading_modes(&w, &with(SolverChoice::Auto, Modes::Above(f64::NAN)));
+    let not_a_number = leading_modes(&w, &with(None, Modes::Above(f64::NAN)));
     assert!(matches!(not_a_number, Err(SpectraError::NothingAbove { .. })));
 }
 
 #[test]
 fn more_modes_above_a_cutoff_than_allowed_are_refused_with_numbers() {
     let w = CouplingMatrix::new(&ring_of_cliques(40), Normalization::Laplacian);
-    for solver in ITERATIVE.iter().copied().chain([SolverChoice::Dense]) {
+    for solver in BUILT.iter().copied() {
         let request = Request { max_modes: 10, ..with(solver, Modes::Above(-1.0)) };
         match leading_modes(&w, &request) {
             Err(SpectraError::TooManyAbove { cutoff, found, max_modes: 10 }) => {
@@ -182,7 +181,7 @@ fn the_verified_number_is_that_of_the_dense_spectrum_on_networks_of_every_family
 fn progress_tells_products_and_modes_and_never_goes_back() {
     let w = CouplingMatrix::new(&grid(40), Normalization::Laplacian);
     let calls = std::sync::Mutex::new(Vec::new());
-    let request = with(SolverChoice::Chebyshev, Modes::Leading(6));
+    let request = with(Solver::Chebyshev, Modes::Leading(6));
     let spectrum = leading_modes_with(&w, &request, &|advance| {
         calls.lock().unwrap().push(advance);
         std::ops::ControlFlow::Continue(())

@@ -2,20 +2,27 @@
 
 mod common;
 
-use common::{BOTH, ITERATIVE, check_eigenvalues, dense, network, scale, solve, with};
+use std::iter;
+
+use common::{BOTH, BUILT, ITERATIVE, check_eigenvalues, dense, network, scale, solve, with};
 use graph::{CouplingMatrix, Normalization};
-use spectra::{Modes, SolverChoice, SpectraError, leading_modes, smallest_eigenvalue};
+use spectra::{Modes, Solver, SpectraError, leading_modes, smallest_eigenvalue};
 
 /// Every solver that was built, and the free choice.
-fn every() -> impl Iterator<Item = SolverChoice> {
-    [SolverChoice::Auto, SolverChoice::Dense].into_iter().chain(ITERATIVE.iter().copied())
+fn every() -> impl Iterator<Item = Option<Solver>> {
+    iter::once(None).chain(BUILT.iter().copied().map(Some))
+}
+
+/// Whether all modes can be asked of it.
+fn finds_all(solver: &Option<Solver>) -> bool {
+    solver.is_none_or(Solver::finds_all)
 }
 
 #[test]
-fn one_node_has_one_mode_by_every_solver_but_arpack() {
+fn one_node_has_one_mode_by_every_solver_that_finds_all() {
     for normalization in BOTH {
         let w = CouplingMatrix::new(&network(1, &[]), normalization);
-        for solver in every().filter(|&solver| solver != SolverChoice::Arpack) {
+        for solver in every().filter(finds_all) {
             for modes in [Modes::Leading(1), Modes::All, Modes::Above(-1.0)] {
                 let spectrum = solve(&w, &with(solver, modes));
                 assert_eq!(spectrum.eigenvalues, [0.0]);
@@ -31,7 +38,7 @@ fn two_nodes_have_their_modes_by_every_solver() {
     for solver in every() {
         assert_eq!(solve(&w, &with(solver, Modes::Leading(1))).eigenvalues.len(), 1);
         assert_eq!(solve(&w, &with(solver, Modes::Above(-1.0))).eigenvalues.len(), 1);
-        if solver != SolverChoice::Arpack {
+        if finds_all(&solver) {
             let all = solve(&w, &with(solver, Modes::All));
             check_eigenvalues(&all, &[0.0, -1.4], 1e-15);
         }
@@ -60,7 +67,7 @@ fn pieces_and_isolated_nodes_are_copies_of_zero() {
 #[test]
 fn more_pieces_than_may_be_returned_are_refused() {
     let w = CouplingMatrix::new(&network(3000, &[(0, 1, 1.0)]), Normalization::Laplacian);
-    for &solver in ITERATIVE {
+    for &solver in ITERATIVE.iter() {
         assert!(matches!(
             leading_modes(&w, &with(solver, Modes::Leading(5))),
             Err(SpectraError::EigenspaceTooLarge { requested: 5, found: 2999, .. })
@@ -85,7 +92,7 @@ fn weights_over_twelve_orders_keep_eigenvalues_to_the_tolerance_of_the_strongest
     for normalization in BOTH {
         let w = CouplingMatrix::new(&uneven(120), normalization);
         let all = solve(&w, &dense());
-        for solver in [SolverChoice::Chebyshev, SolverChoice::ShiftInvert] {
+        for solver in [Solver::Chebyshev, Solver::ShiftInvert] {
             let leading = solve(&w, &with(solver, Modes::Leading(30)));
             check_eigenvalues(&leading, &all.eigenvalues, 2e-12 * scale(&w));
             let whole = all.eigenspaces.iter().find(|range| range.end >= 30).unwrap().end;

@@ -11,7 +11,7 @@ use common::{
 use graph::generators::{LinkProbability, communities};
 use graph::{CouplingMatrix, Network, Normalization};
 use proptest::prelude::*;
-use spectra::{Modes, Request, Solver, SolverChoice, SpectraError, leading_modes};
+use spectra::{Modes, Request, Solver, SpectraError, leading_modes};
 
 /// Asserts that every eigenspace of `leading` is the same subspace of node space as in `all`, up to
 /// what the residuals and the gap to its neighbours allow (Davis & Kahan).
@@ -123,11 +123,11 @@ fn by_iteration(n_modes: usize) -> impl Iterator<Item = Request> {
 }
 
 fn chebyshev(n_modes: usize) -> Request {
-    common::with(SolverChoice::Chebyshev, Modes::Leading(n_modes))
+    common::with(Solver::Chebyshev, Modes::Leading(n_modes))
 }
 
 fn shift_invert(n_modes: usize) -> Request {
-    common::with(SolverChoice::ShiftInvert, Modes::Leading(n_modes))
+    common::with(Solver::ShiftInvert, Modes::Leading(n_modes))
 }
 
 /// Matrices on which solvers meet invariant spaces (complete graph, star) and on which it does not.
@@ -146,7 +146,7 @@ fn fixtures() -> Vec<(CouplingMatrix, Request)> {
         with(&torus(60), chebyshev(9)),
         with(&torus(60), shift_invert(9)),
     ];
-    all.into_iter().filter(|(_, request)| request.solver.is_built()).collect()
+    all.into_iter().filter(|(_, request)| request.solver.is_none_or(Solver::is_built)).collect()
 }
 
 /// A ring of 400 nodes, which two of them cut in halves, with a leaf on every fifth, and a path of its own.
@@ -317,7 +317,7 @@ fn the_solver_is_chosen_by_size_and_count() {
 
 #[test]
 fn without_small_separators_medium_networks_go_to_arpack_and_large_ones_to_filters() {
-    let medium = if SolverChoice::Arpack.is_built() { Solver::Arpack } else { Solver::Chebyshev };
+    let medium = if Solver::Arpack.is_built() { Solver::Arpack } else { Solver::Chebyshev };
     for (n_nodes, expected) in [(3000, medium), (6000, Solver::Chebyshev)] {
         let size = n_nodes / 3;
         let probability =
@@ -336,11 +336,13 @@ fn requests_that_cannot_be_met_say_so_with_numbers() {
     let leading = |m| Request { modes: Modes::Leading(m), ..Request::default() };
     assert_eq!(message(leading(0)), "0 modes were asked for; a spectrum has at least one");
     assert_eq!(message(leading(6)), "6 modes were asked for, but a network of 5 nodes has 5");
-    let all_of_arpack = Request { solver: SolverChoice::Arpack, ..Request::default() };
-    for request in [all_of_arpack, arpack(5)].into_iter().filter(|r| r.solver.is_built()) {
+    let all_of_arpack = Request { solver: Some(Solver::Arpack), ..Request::default() };
+    for request in
+        [all_of_arpack, arpack(5)].into_iter().filter(|r| r.solver.is_none_or(Solver::is_built))
+    {
         assert_eq!(
             leading_modes(&w, &request).unwrap_err(),
-            SpectraError::BeyondArpack { requested: 5, n_nodes: 5 }
+            SpectraError::AllButOne { solver: "arpack", requested: 5, n_nodes: 5 }
         );
     }
     for tolerance in [0.0, -1.0, f64::NAN, 0.1] {
@@ -356,7 +358,7 @@ fn requests_that_cannot_be_met_say_so_with_numbers() {
 fn a_build_without_arpack_says_so_and_solves_by_the_others() {
     let w = CouplingMatrix::new(&torus(30), Normalization::Laplacian);
     let found = leading_modes(&w, &arpack(4));
-    assert_eq!(found.unwrap_err(), SpectraError::ArpackNotBuilt);
+    assert_eq!(found.unwrap_err(), SpectraError::NotBuilt { solver: "arpack" });
     let free = Request { modes: Modes::Leading(4), ..Request::default() };
     assert_eq!(solve(&w, &free).eigenspaces, [0..1, 1..5]);
 }

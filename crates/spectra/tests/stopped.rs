@@ -8,8 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use common::{ITERATIVE, network, torus, with};
 use graph::{CouplingMatrix, Network, Normalization};
 use spectra::{
-    Advance, Modes, SolverChoice, SpectraError, Spectrum, Verification, leading_modes,
-    leading_modes_with,
+    Advance, Modes, Solver, SpectraError, Spectrum, Verification, leading_modes, leading_modes_with,
 };
 
 /// Every node linked to six others far and near, which leaves no small separators.
@@ -24,7 +23,7 @@ fn tangle(n_nodes: usize) -> Network {
 /// Solves until it has been asked so often whether to go on; how often it was.
 fn stopped_after(
     w: &CouplingMatrix,
-    solver: SolverChoice,
+    solver: Solver,
     questions: usize,
 ) -> (Result<Spectrum, SpectraError>, usize) {
     let asked = AtomicUsize::new(0);
@@ -40,7 +39,7 @@ fn stopped_after(
 fn a_solve_does_nothing_more_once_it_was_told_to_stop() {
     for network in [torus(20), tangle(500)] {
         let w = CouplingMatrix::new(&network, Normalization::Laplacian);
-        for &solver in ITERATIVE {
+        for &solver in ITERATIVE.iter() {
             let (whole, questions) = stopped_after(&w, solver, usize::MAX);
             assert!(whole.is_ok() && questions > 2, "{solver:?} asked {questions} times");
             for stop in [1, 2, questions / 3, questions / 2, questions - 1, questions] {
@@ -55,7 +54,7 @@ fn a_solve_does_nothing_more_once_it_was_told_to_stop() {
 #[test]
 fn solvers_that_only_multiply_ask_at_every_product_probes_included() {
     let w = CouplingMatrix::new(&tangle(1800), Normalization::Laplacian);
-    let only_multiply = |solver: &&SolverChoice| **solver != SolverChoice::ShiftInvert;
+    let only_multiply = |solver: &&Solver| **solver != Solver::ShiftInvert;
     for &solver in ITERATIVE.iter().filter(only_multiply) {
         let (last, largest) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let progress = |advance: Advance| {
@@ -77,7 +76,7 @@ fn solvers_that_only_multiply_ask_at_every_product_probes_included() {
 #[test]
 fn a_solve_after_a_stopped_one_has_the_bits_of_an_undisturbed_one() {
     let w = CouplingMatrix::new(&tangle(500), Normalization::Laplacian);
-    for &solver in ITERATIVE {
+    for &solver in ITERATIVE.iter() {
         let request = with(solver, Modes::Leading(12));
         let undisturbed = leading_modes(&w, &request).unwrap();
         for stop in [1, 7, 40] {

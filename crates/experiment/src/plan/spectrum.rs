@@ -1,10 +1,9 @@
 //! `[spectrum]`: which modes, by which solver, and what these cannot do.
 
 use eigensync::{Wanted, WantedModes};
-use spectra::SolverChoice;
+use spectra::Solver;
 
 use super::Checker;
-use crate::spec::SolverKind;
 use user::Result;
 
 /// The most nodes for the dense solver, which at this size needs 20 GB a matrix and a day.
@@ -22,15 +21,13 @@ impl Checker<'_> {
             }
             _ => {}
         }
-        let solver = match spec.solver {
-            SolverKind::Auto => SolverChoice::Auto,
-            SolverKind::Dense => SolverChoice::Dense,
-            SolverKind::Arpack => SolverChoice::Arpack,
-            SolverKind::Chebyshev => SolverChoice::Chebyshev,
-            SolverKind::ShiftInvert => SolverChoice::ShiftInvert,
-        };
-        if !solver.is_built() {
-            let message = "is \"arpack\", but this program was built without its feature `arpack`";
+        let solver = spec.solver.0;
+        if let Some(solver) = solver
+            && !solver.is_built()
+        {
+            let name = solver.name();
+            let message =
+                format!("is \"{name}\", but this program was built without its feature `{name}`");
             let hint = "leave `spectrum.solver` out, or set it to \"chebyshev\"";
             return Err(self.problem("spectrum.solver", message).hint(hint));
         }
@@ -42,18 +39,22 @@ impl Checker<'_> {
         }
         let size = (n_nodes, n_components);
         let plan = WantedModes::new(size, spec.modes, solver, spec.tolerance);
-        if !matches!(plan.wanted(), Wanted::UnstableAt(_)) || matches!(solver, SolverChoice::Dense)
-        {
+        let is_dense = solver.is_some_and(Solver::is_dense);
+        if !matches!(plan.wanted(), Wanted::UnstableAt(_)) || is_dense {
             self.solvable(solver, plan.most_modes(n_nodes), n_nodes)?;
         }
         Ok(plan)
     }
 
     /// Refuses what the solvers cannot do for so many modes of so many nodes.
-    fn solvable(&self, solver: SolverChoice, modes: usize, n_nodes: usize) -> Result<()> {
-        if solver == SolverChoice::Arpack && modes == n_nodes {
+    fn solvable(&self, solver: Option<Solver>, modes: usize, n_nodes: usize) -> Result<()> {
+        if let Some(solver) = solver
+            && !solver.finds_all()
+            && modes == n_nodes
+        {
             let message = format!(
-                "is \"arpack\", which cannot find all {n_nodes} modes of a network, only fewer"
+                "is \"{}\", which cannot find all {n_nodes} modes of a network, only fewer",
+                solver.name()
             );
             let hint = format!(
                 "set `spectrum.modes` to {} or less, or leave `spectrum.solver` out",
@@ -61,12 +62,8 @@ impl Checker<'_> {
             );
             return Err(self.problem("spectrum.solver", message).hint(hint));
         }
-        let dense = match solver {
-            SolverChoice::Dense => true,
-            // Half of all modes and more are found by the dense solver, too.
-            SolverChoice::Auto => modes > n_nodes / 2,
-            SolverChoice::Arpack | SolverChoice::Chebyshev | SolverChoice::ShiftInvert => false,
-        };
+        // Where the choice is free, half of all modes and more are found by the dense solver, too.
+        let dense = solver.map_or(modes > n_nodes / 2, Solver::is_dense);
         if dense && n_nodes > DENSE_MOST {
             let message = format!(
                 "asks for {modes} modes of {n_nodes} nodes from the dense solver, whose matrices \

@@ -1,13 +1,13 @@
 //! The spectrum in a summary, and how it is known to be whole.
 
 use serde::Serialize;
-use spectra::{Solver, Spectrum, Verification};
+use spectra::{Spectrum, Verification};
 
 /// How the modes are known.
 #[derive(Serialize)]
 pub struct SpectrumRecord {
-    /// Which solver found them.
-    pub solver: &'static str,
+    /// Which solver found them: its name in experiment files, with hyphens.
+    pub solver: String,
     /// First and last mode of each run of equal eigenvalues of two modes or more.
     pub multiple: Vec<[usize; 2]>,
     /// Eigenvalues closer than this are one eigenspace.
@@ -34,12 +34,7 @@ pub struct VerifiedRecord {
 /// A spectrum without its numbers.
 pub fn record(spectrum: &Spectrum) -> SpectrumRecord {
     SpectrumRecord {
-        solver: match spectrum.solver {
-            Solver::Dense => "dense",
-            Solver::Arpack => "arpack",
-            Solver::Chebyshev => "chebyshev",
-            Solver::ShiftInvert => "shift-invert",
-        },
+        solver: spectrum.solver.name().replace('_', "-"),
         multiple: spectrum
             .real_modes()
             .eigenspaces

@@ -18,7 +18,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode};
 use fixtures::Builder;
 use graph::{CouplingMatrix, Normalization};
-use spectra::{Modes, Request, SolverChoice, Spectrum, leading_modes};
+use spectra::{Modes, Request, Spectrum, leading_modes};
 
 const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
 /// A spectrum of this many nodes takes up to half a minute and is computed once: all samples are that
@@ -32,7 +32,7 @@ const TEN_MODES_SIZE: usize = 100_000;
 
 const REQUEST: Request = Request {
     modes: Modes::Leading(N_MODES),
-    solver: SolverChoice::Auto,
+    solver: None,
     tolerance: 1e-10,
     max_products: 200_000,
     max_extra: 100,

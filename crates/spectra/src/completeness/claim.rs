@@ -1,8 +1,8 @@
 //! What a solver claims when it has found all modes wanted, and what its verification comes to.
 
 use crate::plan::wanted::Wanted;
-use crate::spectrum::Verification;
 use crate::vectors::block::Block;
+use crate::verification::Verification;
 
 /// Random vectors of the first probing.
 const FIRST_PROBES: usize = 2;

@@ -14,10 +14,10 @@ use crate::error::SpectraError;
 use crate::factorisation::symbolic::{DENSE_SPEED, Symbolic};
 use crate::matrix::product::Links;
 use crate::progress::{Advance, Progress};
-use crate::spectrum::Verification;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
 use crate::vectors::random::Random;
+use crate::verification::Verification;
 
 /// Products that a factorisation may be worth whatever the solve took.
 const FREE_PRODUCTS: usize = 2000;

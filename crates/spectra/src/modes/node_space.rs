@@ -9,9 +9,11 @@ use crate::found::{Eigenpairs, Found};
 use crate::matrix::product::multiply_block;
 use crate::modes::slow_modes;
 use crate::plan::{Plan, grouping};
-use crate::spectrum::{Solver, Spectrum, Verification};
+use crate::solvers::Solver;
+use crate::spectrum::Spectrum;
 use crate::vectors::block::Block;
 use crate::vectors::column::orthonormalise_against;
+use crate::verification::Verification;
 
 /// Magnitudes this close, relatively, are a tie for the largest component.
 const SIGN_TIE: f64 = 1e-6;

@@ -1,14 +1,25 @@
 //! The leading modes of S from all its eigenpairs.
 
-use graph::SparseMatrix;
+use graph::SymmetricForm;
 
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
 use crate::plan::Plan;
+use crate::solvers::method::{Method, Solve};
 use crate::vectors::small_eigen::{Eigen, symmetric_eigen};
 
+/// The dense solver.
+pub(crate) const METHOD: Method = Method {
+    name: "dense",
+    finds_all: true,
+    rounding: 1e-15,
+    factorises: false,
+    solve: Some(Solve::Dense(leading)),
+};
+
 /// The leading modes of S, whole eigenspaces only.
-pub(crate) fn leading(matrix: &SparseMatrix, plan: &Plan) -> Result<Found, SpectraError> {
+fn leading(w: &SymmetricForm<'_>, plan: &Plan) -> Result<Found, SpectraError> {
+    let matrix = w.symmetric();
     let mut full = vec![0.0; matrix.rows() * matrix.cols()];
     for (i, row) in matrix.outer_iterator().enumerate() {
         for (j, &s_ij) in row.iter() {

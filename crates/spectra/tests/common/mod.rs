@@ -3,9 +3,10 @@
 
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 use graph::{CouplingMatrix, Network, Normalization};
-use spectra::{Modes, Request, Solver, SolverChoice, Spectrum, Verification, leading_modes};
+use spectra::{Modes, Request, Solver, Spectrum, Verification, leading_modes};
 use sprs::prod::mul_acc_mat_vec_csr;
 
 pub const BOTH: [Normalization; 2] = [Normalization::Laplacian, Normalization::Normalized];
@@ -118,23 +119,24 @@ pub fn descending(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 }
 
 pub fn dense() -> Request {
-    Request { solver: SolverChoice::Dense, ..Request::default() }
+    with(Solver::Dense, Modes::All)
 }
 
 pub fn arpack(n_modes: usize) -> Request {
-    Request { modes: Modes::Leading(n_modes), solver: SolverChoice::Arpack, ..Request::default() }
+    with(Solver::Arpack, Modes::Leading(n_modes))
 }
 
-pub fn with(solver: SolverChoice, modes: Modes) -> Request {
-    Request { modes, solver, ..Request::default() }
+pub fn with(solver: impl Into<Option<Solver>>, modes: Modes) -> Request {
+    Request { modes, solver: solver.into(), ..Request::default() }
 }
 
-/// Every iterative solver that was built.
-pub const ITERATIVE: &[SolverChoice] = if SolverChoice::Arpack.is_built() {
-    &[SolverChoice::Arpack, SolverChoice::Chebyshev, SolverChoice::ShiftInvert]
-} else {
-    &[SolverChoice::Chebyshev, SolverChoice::ShiftInvert]
-};
+/// Every solver that was built.
+pub static BUILT: LazyLock<Vec<Solver>> =
+    LazyLock::new(|| Solver::ALL.iter().copied().filter(|solver| solver.is_built()).collect());
+
+/// Those of them that are iterative.
+pub static ITERATIVE: LazyLock<Vec<Solver>> =
+    LazyLock::new(|| BUILT.iter().copied().filter(|solver| !solver.is_dense()).collect());
 
 /// A spectrum mode by mode, as closed forms are stated.
 #[derive(Clone, Debug)]

@@ -16,7 +16,6 @@ use graph::{SymmetricForm, unit_interval};
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
-use crate::completeness::Verifier;
 use crate::completeness::claim::Claim;
 use crate::error::SpectraError;
 use crate::found::{Eigenpairs, Found};
@@ -24,14 +23,15 @@ use crate::matrix::null_space::NullSpace;
 use crate::plan::Plan;
 use crate::plan::wanted::Wanted;
 use crate::progress::{Advance, Progress};
+use crate::recurrences::spectral_density::SpectralDensity;
 use crate::solvers::arpack::library;
 use crate::solvers::arpack::library::{Outcome, Settings};
 use crate::solvers::arpack::operator::{Deflated, Operator, Shifted};
 use crate::solvers::arpack::rayleigh_ritz::rayleigh_ritz;
-use crate::spectrum::Verification;
+use crate::solvers::method::Task;
 use crate::vectors::basis::Basis;
 use crate::vectors::column::orthonormalise_against;
-use crate::vectors::random::Random;
+use crate::verification::Verification;
 
 /// Eigenvalues that a look into the complement asks for at first; doubled while all of them belong
 /// to the answer.
@@ -42,13 +42,9 @@ const WIDEST_LOOK: usize = 64;
 const START_VECTORS: u128 = 0x05ec_74a1;
 
 /// The leading modes of S, whole eigenspaces only, by ARPACK; may be stopped at every product.
-pub(crate) fn leading(
-    w: &SymmetricForm<'_>,
-    plan: &Plan,
-    verifier: &Verifier<'_>,
-    mut random: Random,
-    progress: Progress<'_>,
-) -> Result<(Found, Verification), SpectraError> {
+pub(super) fn leading(task: Task<'_>) -> Result<(Found, Verification), SpectraError> {
+    let Task { w, plan, links, mut verifier, mut random, progress, .. } = task;
+    verifier.low = SpectralDensity::new(links, plan.scale, &mut random)?.low;
     let shift = 3.0 * plan.scale;
     let shifted = Shifted { matrix: w.symmetric(), shift };
     let mut search = Search::new(w, &shifted, plan, progress)?;

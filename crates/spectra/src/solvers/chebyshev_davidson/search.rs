@@ -23,11 +23,11 @@ use crate::solvers::chebyshev_davidson::amplifier::{Amplifier, Situation};
 use crate::solvers::chebyshev_davidson::long_sequence::LongSequence;
 use crate::solvers::chebyshev_davidson::search_space::Projected;
 use crate::solvers::chebyshev_davidson::stagnation::Stagnation;
-use crate::spectrum::Verification;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
 use crate::vectors::random::Random;
 use crate::vectors::small_eigen::Eigen;
+use crate::verification::Verification;
 
 /// Most vectors added at once.
 const WIDTH: usize = 4;

@@ -28,12 +28,12 @@ use crate::matrix::null_space::NullSpace;
 use crate::plan::Plan;
 use crate::progress::{Advance, Progress};
 use crate::solvers::shift_invert_lanczos::ritz::Modes;
-use crate::spectrum::Verification;
 use crate::vectors::basis::Basis;
 use crate::vectors::block::Block;
 use crate::vectors::projection::Projection;
 use crate::vectors::random::Random;
 use crate::vectors::small_eigen::Eigen;
+use crate::verification::Verification;
 
 /// Vectors that the inverse multiplies at once, at first: pairs of equal eigenvalues are frequent.
 const WIDTH: usize = 2;
