@@ -16,7 +16,7 @@ use crate::found::Found;
 use crate::quantity::{From, Obtained, Quantity, Use, Uses};
 
 /// All of them, in the order of the documentation.
-pub static QUANTITIES: [Quantity; 24] = [
+pub static QUANTITIES: &[Quantity] = &[
     Quantity {
         name: "eigenvalues",
         meaning: "λ_k, descending: all, or those of `modes`",
