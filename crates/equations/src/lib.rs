@@ -70,12 +70,14 @@ mod system;
 mod tangent;
 mod tape;
 mod token;
+mod traced;
 
 pub use builder::LARGEST_PRODUCT;
 pub use expression::{Expression, Node, Part};
 pub use mistake::{Fault, Mistake, Place};
-pub use names::{Binary, Comparison, Unary};
+pub use names::{Binary, Comparison, Unary, nearest};
 pub use parser::{MAX_BYTES, MAX_DEPTH};
 pub use program::Program;
 pub use run::Registers;
 pub use system::{Description, Kind, MAX_COMPONENTS, MAX_NAMES, System, Warning};
+pub use traced::Traced;

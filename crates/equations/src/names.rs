@@ -150,7 +150,7 @@ pub(crate) fn superscript(c: char) -> Option<usize> {
 }
 
 /// The known name nearest to one that was found, if it is near enough to be a slip.
-pub(crate) fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     /// Nobody mistypes a name so long; the distance takes time and room that grow with its square.
     const LONGEST: usize = 100;
     if found.len() > LONGEST {

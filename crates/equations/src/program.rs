@@ -1,10 +1,11 @@
 //! A system as programs: values, and values with derivatives along a direction.
 
-use crate::assemble::assemble;
+use crate::assemble::{Assembled, assemble};
 use crate::run::Registers;
 use crate::system::System;
 use crate::tangent::tangents;
 use crate::tape::Tape;
+use crate::traced::{self, Traced};
 
 /// Equations that can be evaluated, made for given values of parameters.
 ///
@@ -23,7 +24,26 @@ pub struct Program {
 impl Program {
     /// Makes a program of a system with the values that its parameters have now.
     pub fn new(system: &System) -> Self {
-        let mut assembled = assemble(system);
+        Self::assembled(assemble(system))
+    }
+
+    /// Makes a program of equations in Rust, by what they do with numbers of `n_inputs` components. It
+    /// is that of the same operations as text.
+    ///
+    /// ```
+    /// use equations::Program;
+    ///
+    /// let jerk = Program::trace(3, |x| vec![x[1], x[2], x[2] * -2.017 + x[1] * x[1] - x[0]]);
+    /// assert_eq!((jerk.n_outputs(), jerk.n_operations()[0]), (3, 3));
+    /// ```
+    pub fn trace(
+        n_inputs: usize,
+        equations: impl for<'a> FnOnce(&[Traced<'a>]) -> Vec<Traced<'a>>,
+    ) -> Self {
+        Self::assembled(traced::trace(n_inputs, equations))
+    }
+
+    fn assembled(mut assembled: Assembled) -> Self {
         let values = Tape::new(&assembled.builder, assembled.inputs, &assembled.outputs);
         let tangents = tangents(&mut assembled);
         let n_outputs = assembled.outputs.len();

@@ -166,6 +166,24 @@ impl Tape {
                 Operation::Divide(a, b) => each!(to, [x, y] = [at(a), at(b)], x / y),
                 Operation::DivideByConstant(a, b) => each!(to, [x] = [at(a)], x / b),
                 Operation::ConstantOver(a, b) => each!(to, [y] = [at(b)], a / y),
+                Operation::MultiplyAdd(a, b, c) => {
+                    each!(to, [x, y, z] = [at(a), at(b), at(c)], x * y + z);
+                }
+                Operation::MultiplySubtract(a, b, c) => {
+                    each!(to, [x, y, z] = [at(a), at(b), at(c)], x * y - z);
+                }
+                Operation::SubtractProduct(a, b, c) => {
+                    each!(to, [x, y, z] = [at(a), at(b), at(c)], z - x * y);
+                }
+                Operation::MultiplyConstantAdd(a, b, c) => {
+                    each!(to, [x, z] = [at(a), at(c)], x * b + z);
+                }
+                Operation::MultiplyConstantSubtract(a, b, c) => {
+                    each!(to, [x, z] = [at(a), at(c)], x * b - z);
+                }
+                Operation::SubtractConstantProduct(a, b, c) => {
+                    each!(to, [x, z] = [at(a), at(c)], z - x * b);
+                }
                 Operation::Negate(a) => each!(to, [x] = [at(a)], -x),
                 Operation::Unary(function, a) => unary(function, to, at(a)),
                 Operation::Power(a, b) => {

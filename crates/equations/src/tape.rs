@@ -1,6 +1,6 @@
 //! A program as it runs: a straight list of operations on registers, each of which writes the next one.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::builder::{Builder, Step, Value};
 use crate::names::{Comparison, Unary};
@@ -22,6 +22,14 @@ pub(crate) enum Operation {
     Divide(Register, Register),
     DivideByConstant(Register, f64),
     ConstantOver(f64, Register),
+    /// a b + c, a b − c and c − a b, two roundings each, of which the product has no register.
+    MultiplyAdd(Register, Register, Register),
+    MultiplySubtract(Register, Register, Register),
+    SubtractProduct(Register, Register, Register),
+    /// The same with a constant b.
+    MultiplyConstantAdd(Register, f64, Register),
+    MultiplyConstantSubtract(Register, f64, Register),
+    SubtractConstantProduct(Register, f64, Register),
     Negate(Register),
     Unary(Unary, Register),
     Power(Register, Register),
@@ -65,6 +73,10 @@ impl Tape {
     /// What of the operations is needed for some values.
     pub(crate) fn new(builder: &Builder, inputs: usize, outputs: &[Value]) -> Self {
         let steps: Vec<(usize, Step)> = needed(builder, outputs);
+        let reads = reads(&steps, outputs, builder.steps.len());
+        let product_of = products(&steps, &reads, builder);
+        let absorbed: HashSet<usize> = product_of.values().map(|(index, _)| *index).collect();
+        let written = || steps.iter().filter(|(index, _)| !absorbed.contains(index));
         let mut constants = Constants { from: inputs, values: Vec::new(), places: HashMap::new() };
         // All constants come before all operations, so they are known first.
         for (_, step) in &steps {
@@ -76,13 +88,15 @@ impl Tape {
         let behind = inputs + constants.values.len();
         let mut register_of = vec![None; builder.steps.len()];
         let mut instructions = Vec::with_capacity(steps.len());
-        for (place, (index, step)) in steps.iter().enumerate() {
+        for (place, (index, step)) in written().enumerate() {
             let register = |value: &Value| constants.register(*value, &register_of);
-            let operation = operation(step, register);
+            let operation = match product_of.get(index) {
+                Some(product) => with_product(step, product, register),
+                None => operation(step, register),
+            };
             instructions.push(Instruction { operation, output: NO_OUTPUT });
             register_of[*index] = Some((behind + place) as Register);
         }
-        let reads = reads(&steps, outputs, builder.steps.len());
         let output = |(number, value): (usize, &Value)| {
             let register = constants.register(*value, &register_of);
             let is_direct = matches!(value, Value::Step(step) if reads[*step] == 1);
@@ -163,6 +177,51 @@ impl Constants {
             Value::Step(step) => register_of[step].expect("a step comes after its operands"),
             Value::Constant(constant) => (self.from + self.places[&constant.to_bits()]) as Register,
         }
+    }
+}
+
+/// Products that nothing but one sum or difference of registers reads, by the step that does: their steps
+/// and their factors.
+fn products(
+    steps: &[(usize, Step)],
+    reads: &[usize],
+    builder: &Builder,
+) -> HashMap<usize, (usize, [Value; 2])> {
+    let product = |value: &Value| match value {
+        Value::Step(index) if reads[*index] == 1 => match builder.steps[*index] {
+            step if step.code == Code::Multiply => {
+                Some((*index, [step.operands()[0], step.operands()[1]]))
+            }
+            _ => None,
+        },
+        _ => None,
+    };
+    let of = |(index, step): &(usize, Step)| {
+        let is_sum = matches!(step.code, Code::Add | Code::Subtract);
+        let is_of_registers = step.operands().iter().all(|o| !matches!(o, Value::Constant(_)));
+        let found = step.operands().iter().find_map(product);
+        found.filter(|_| is_sum && is_of_registers).map(|product| (*index, product))
+    };
+    steps.iter().filter_map(of).collect()
+}
+
+/// A sum or difference of which one side is a product that has no register.
+fn with_product(
+    step: &Step,
+    (index, factors): &(usize, [Value; 2]),
+    register: impl Fn(&Value) -> Register,
+) -> Operation {
+    let [first, second] = step.operands() else { unreachable!("a sum has two sides") };
+    let is_first = *first == Value::Step(*index);
+    let other = register(if is_first { second } else { first });
+    let a = register(&factors[0]);
+    match (factors[1], step.code, is_first) {
+        (Value::Constant(b), Code::Add, _) => Operation::MultiplyConstantAdd(a, b, other),
+        (Value::Constant(b), _, true) => Operation::MultiplyConstantSubtract(a, b, other),
+        (Value::Constant(b), _, false) => Operation::SubtractConstantProduct(a, b, other),
+        (b, Code::Add, _) => Operation::MultiplyAdd(a, register(&b), other),
+        (b, _, true) => Operation::MultiplySubtract(a, register(&b), other),
+        (b, _, false) => Operation::SubtractProduct(a, register(&b), other),
     }
 }
 
