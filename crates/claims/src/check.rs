@@ -200,7 +200,7 @@ impl Checker<'_> {
             };
         }
         match self.quantity.obtained {
-            Obtained::Numbers(_) => self.numbers(at),
+            Obtained::Numbers(_) | Obtained::List(_) => self.numbers(at),
             Obtained::Vectors(_) => self.vectors(at),
             Obtained::Clusters(_) => {
                 let clusters: Vec<Vec<Name>> =
@@ -214,7 +214,11 @@ impl Checker<'_> {
     }
 
     fn is_of_numbers(&self) -> bool {
-        matches!(self.quantity.obtained, Obtained::Numbers(_))
+        matches!(self.quantity.obtained, Obtained::Numbers(_) | Obtained::List(_))
+    }
+
+    fn is_of_a_list(&self) -> bool {
+        matches!(self.quantity.obtained, Obtained::List(_))
     }
 
     /// How many numbers the quantity has, where that is known.
@@ -238,7 +242,9 @@ impl Checker<'_> {
             return refuse(".equals", format!("contains {number}, but must be finite"));
         }
         match self.count(at) {
-            None if values.is_empty() => return refuse(".equals", "is an empty list"),
+            None if values.is_empty() && !self.is_of_a_list() => {
+                return refuse(".equals", "is an empty list");
+            }
             Some(count) if count != values.len() => {
                 let message = format!("has {} values, expected {count}", values.len());
                 return refuse(".equals", message);
@@ -291,7 +297,7 @@ impl Checker<'_> {
                 return refuse(&key, format!("is {value}, but must be finite and not negative"));
             }
             let counts = match self.quantity.obtained {
-                Obtained::Numbers(_) => self.spec.equals.is_some(),
+                Obtained::Numbers(_) | Obtained::List(_) => self.spec.equals.is_some(),
                 Obtained::Vectors(_) => name == "abs_tol",
                 Obtained::Clusters(_) | Obtained::Losses { .. } => false,
             };

@@ -77,7 +77,7 @@ impl Sides {
 
 fn sides(claim: &Claim, found: &Found<'_>) -> Sides {
     match (&claim.of.obtained, &claim.stated) {
-        (Obtained::Numbers(of), stated) => {
+        (Obtained::Numbers(of) | Obtained::List(of), stated) => {
             let obtained = of(found);
             let uncertainty = uncertainty(claim, &obtained);
             Sides { uncertainty, ..numbers(&obtained, stated) }
@@ -136,7 +136,12 @@ fn numbers(obtained: &[Number], stated: &Stated) -> Sides {
                 x.is_within(expected - allowed(expected), expected + allowed(expected))
             };
             let is_complete = obtained.len() == values.len();
-            let answer = if is_complete { all(obtained, near) } else { Answer::Differs };
+            let answer = match is_complete {
+                // None are claimed, and there are none.
+                true if values.is_empty() => Answer::Holds,
+                true => all(obtained, near),
+                false => Answer::Differs,
+            };
             let paper = if let [single] = values[..] { json!(single) } else { json!(values) };
             Sides::new(paper, shown, tolerance(abs, rel), answer)
         }

@@ -60,6 +60,16 @@ pub static QUANTITIES: &[Quantity] = &[
         is_unrefined: curve::sigma_c_is_unrefined,
     },
     Quantity {
+        name: "msf.zeros",
+        meaning: "every zero of Λ that bounds the stable set, ascending; `[]` for none",
+        uses: Uses::NONE,
+        from: From::Curve,
+        of_regions: false,
+        obtained: Obtained::List(curve::zeros),
+        bounded_runs: none,
+        is_unrefined: curve::zeros_are_unrefined,
+    },
+    Quantity {
         name: "critical_couplings",
         meaning: "ε_k above which each of `modes` is stable",
         uses: Uses::MODES,

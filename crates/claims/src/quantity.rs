@@ -83,6 +83,8 @@ type OfLoss = fn(&Found<'_>, usize, &[usize]) -> LostBetween;
 pub enum Obtained {
     /// Numbers: one for each mode or ε of the claim.
     Numbers(fn(&Found<'_>) -> Vec<Number>),
+    /// Numbers, however many there are.
+    List(fn(&Found<'_>) -> Vec<Number>),
     /// Distances of the span of given vectors from each computed eigenspace, or why there are none.
     Vectors(OfVectors),
     /// Clusters at the one ε of the claim.

@@ -1,4 +1,5 @@
-//! The command line: `eigensync run`, `predict`, `msf`, `check`, `compare`, `list`.
+//! The command line: `eigensync run`, `predict`, `msf`, `check`, `oscillators`, `compare`,
+//! `list`.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,9 @@ use clap_complete::Shell;
 use dynamics::InstructionSet;
 
 use crate::output::{say, tell};
-use crate::{closing, curve, list, output, predict, run, terminal};
+use crate::{closing, curve, list, oscillators, output, predict, run, terminal};
+use experiment::Planned;
+use runner::atlas::words;
 use runner::check::{self, Checked};
 use user::text::{one_line, shown};
 use user::{Problem, Result, Stages};
@@ -68,6 +71,16 @@ enum Command {
         /// As for `run`
         #[arg(long)]
         quick: bool,
+        /// Print one JSON document, and nothing else, on standard output
+        #[arg(long)]
+        json: bool,
+    },
+    /// List the oscillators that are known, or show one with its equations
+    ///
+    /// For example: eigensync oscillators rossler
+    Oscillators {
+        /// Which one
+        name: Option<String>,
         /// Print one JSON document, and nothing else, on standard output
         #[arg(long)]
         json: bool,
@@ -146,14 +159,18 @@ pub fn run(cli: Cli) -> Result<bool> {
                 experiment::plan(file, &id, quick, &stages)
             });
             if json {
-                let checked =
-                    plans.map(|plan| Ok(Checked::of(&plan?))).collect::<Result<Vec<_>>>()?;
+                let checked = plans.map(|plan| Ok(checked(&plan?)));
+                let checked = checked.collect::<Result<Vec<_>>>()?;
                 let checked = serde_json::json!({ "experiments": checked });
                 output::document(&format!("{checked:#}"));
                 return Ok(true);
             }
             for plan in plans {
-                say!("{}", check::describe(&plan?).trim_end());
+                let described = match plan? {
+                    Planned::Experiment(plan) => check::describe(&plan),
+                    Planned::Atlas(plan) => words::describe(&plan),
+                };
+                say!("{}", described.trim_end());
             }
             Ok(true)
         }
@@ -189,10 +206,22 @@ pub fn run(cli: Cli) -> Result<bool> {
                 Problem::from_error("manual pages cannot be written", error).in_file(&folder)
             })
         }
+        Command::Oscillators { name, json } => {
+            oscillators::oscillators(name.as_deref(), json).map(|()| true)
+        }
         Command::List { experiments, json, folders } => {
             list::list(&experiments, &folders.results, json).map(|()| true)
         }
     }
+}
+
+/// What a plan will do and cost, for programs.
+fn checked(plan: &Planned) -> serde_json::Value {
+    let value = match plan {
+        Planned::Experiment(plan) => serde_json::to_value(Checked::of(plan)),
+        Planned::Atlas(plan) => serde_json::to_value(words::Checked::of(plan)),
+    };
+    value.expect("what was checked is made of texts and numbers")
 }
 
 /// More threads than so many for each processor would only wait for one another.

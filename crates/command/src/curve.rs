@@ -23,7 +23,7 @@ use crate::signals;
 use experiment::{Plan, Text, plan_of};
 use journal::Journal;
 use results_folder::Folder;
-use runner::provenance::Provenance;
+use runner::provenance::{Provenance, known_by};
 use runner::record::{LAYOUT, MsfRecord, msf_record};
 use runner::results::write_msf;
 use runner::{Work, findings, overview, warning};
@@ -103,7 +103,7 @@ pub fn run(args: &Args) -> Result<()> {
             shortened: plan.shortened,
             msf: msf_record(&msf),
             warnings: warnings.iter().map(warning::kept).collect(),
-            provenance: Provenance::new(&plan, journal.taken(), took, place.origin()),
+            provenance: Provenance::new(known_by(&plan), journal.taken(), took, place.origin()),
         };
         let json = serde_json::to_value(&summary)
             .map(|value| runner::json::text(&value))
@@ -129,10 +129,10 @@ fn id(node: &NodeArgs) -> String {
 }
 
 fn plan(args: &Args, id: &str, stages: &Stages, journal: &Journal) -> Result<Plan> {
-    let (oscillator, [from, to]) = args.node.tables()?;
+    let node = args.node.tables()?;
     let (low, high, points) = match args.sigma {
         Some((low, high, points)) => (low, high, points.into()),
-        None => (0.0, args.node.reach(stages, journal)?, SIGMA_POINTS),
+        None => (0.0, node.reach(stages, journal)?, SIGMA_POINTS),
     };
     let sigma = [("from", low.into()), ("to", high.into()), ("points", points.into())];
     let mut msf = toml::Table::new();
@@ -142,7 +142,8 @@ fn plan(args: &Args, id: &str, stages: &Stages, journal: &Journal) -> Result<Pla
     let mut document = toml! {
         seed = 1
     };
-    let title = format!("Master stability function of {}, {from} into {to}", args.node.oscillator);
+    let title =
+        format!("Master stability function of {}, {}", args.node.oscillator, node.node.function);
     document.insert("title".into(), title.into());
     let pair = [
         ("sizes", toml::Value::from(vec![2])),
@@ -150,9 +151,8 @@ fn plan(args: &Args, id: &str, stages: &Stages, journal: &Journal) -> Result<Pla
         ("p_between", 0.0.into()),
     ];
     document.insert("network".into(), table([("communities", table(pair))]));
-    document.insert("oscillator".into(), oscillator);
-    let coupling = [("matrix", "laplacian".into()), ("from", from.into()), ("to", to.into())];
-    document.insert("coupling".into(), table(coupling));
+    document.insert("coupling".into(), node.coupling("laplacian"));
+    document.insert("oscillator".into(), node.oscillator);
     document.insert("msf".into(), msf.into());
     let options = PathBuf::from(format!("{id}.toml"));
     let asked = text(&document)?;
@@ -164,7 +164,10 @@ fn plan(args: &Args, id: &str, stages: &Stages, journal: &Journal) -> Result<Pla
 /// What was asked for, in the words of experiment files.
 fn experiment(plan: &Plan) -> Value {
     let written = &plan.written;
-    let coupling = json!({ "from": written["coupling"]["from"], "to": written["coupling"]["to"] });
+    let mut coupling = written["coupling"].clone();
+    if let Some(coupling) = coupling.as_object_mut() {
+        coupling.remove("matrix");
+    }
     json!({
         "title": written["title"],
         "seed": written["seed"],

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::output::{document, say};
-use experiment::load;
+use experiment::load::{self, AnyDocument};
 use experiment::spec::{Experiment, GroupsSpec, NetworkSpec};
 use results_folder::{Found, Head};
 use user::text::{one_line, shown};
@@ -87,12 +87,12 @@ impl Entry {
     fn of(file: &Path, results: &Path) -> Self {
         let id = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let found = Found::of(results, &id);
-        let (experiment, problem) = match load::experiment(file) {
-            Ok((experiment, _)) => (Some(experiment), None),
+        let (document, problem) = match load::document(file) {
+            Ok(document) => (Some(document), None),
             Err(problem) => (None, Some(problem.to_string())),
         };
         let state = |head: &Head| {
-            experiment.as_ref().map_or(State::Unreadable, |now| change(file, now, head))
+            document.as_ref().map_or(State::Unreadable, |now| change(file, now, head))
         };
         Self {
             file: file.to_string_lossy().into_owned(),
@@ -101,7 +101,7 @@ impl Entry {
             running: found.is_running,
             unfinished: found.is_unfinished,
             aside: found.aside,
-            title: experiment.map(|now| now.title),
+            title: document.map(title),
             problem,
             id,
         }
@@ -129,16 +129,24 @@ impl Entry {
     }
 }
 
+fn title(document: AnyDocument) -> String {
+    match document {
+        AnyDocument::Experiment(document) => document.experiment.title,
+        AnyDocument::Atlas(document) => document.experiment.title,
+    }
+}
+
 /// What has become of an experiment since its results were written.
-fn change(file: &Path, experiment: &Experiment, head: &Head) -> State {
-    if inputs(file, experiment).iter().all(|input| is_large(input) && !was_touched(input, head)) {
+fn change(file: &Path, document: &AnyDocument, head: &Head) -> State {
+    let (written, inputs) = match document {
+        AnyDocument::Experiment(document) => {
+            (&document.written, inputs(file, &document.experiment))
+        }
+        AnyDocument::Atlas(document) => (&document.written, Vec::new()),
+    };
+    if inputs.iter().all(|input| is_large(input) && !was_touched(input, head)) {
         // Nothing that would have to be read again; the experiment itself is compared as parsed.
-        let now = load::experiment(file).map(|(_, written)| written);
-        return if now.is_ok_and(|now| now == head.experiment) {
-            State::Current
-        } else {
-            State::Stale
-        };
+        return if *written == head.experiment { State::Current } else { State::Stale };
     }
     match experiment::plan_hash_of(file, head.is_quick()) {
         Ok(hash) if hash == head.provenance.plan_hash => State::Current,

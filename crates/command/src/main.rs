@@ -11,6 +11,7 @@ mod closing;
 mod curve;
 mod list;
 mod options;
+mod oscillators;
 mod output;
 mod predict;
 mod run;

@@ -1,57 +1,80 @@
 //! Oscillators and couplings as options name them, and the experiment file that says the same.
 
-use dynamics::lyapunov::Times;
-use dynamics::{Model, NodeDynamics};
+use std::path::Path;
+
 use toml::{Table, Value};
 
-use experiment::Node;
+use experiment::{Node, load};
 use journal::Journal;
 use runner::computed;
+use user::text::shown;
 use user::{Problem, Result, Stages, nearest};
 
 /// Points of the curve Λ(σ).
 pub const SIGMA_POINTS: i64 = 65;
-/// Times of the first look at Λ, which finds how far the curve must reach.
-const FIRST_LOOK: Times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+/// Step of the first look at Λ.
+const STEP: f64 = 0.01;
 
 /// An oscillator and its coupling on the command line.
 #[derive(clap::Args)]
 pub struct NodeArgs {
     /// Oscillator at every node, with parameters that are not the default ones: `lorenz`,
-    /// `hindmarsh_rose:current=3.1`
+    /// `hindmarsh_rose:current=3.1`; `eigensync oscillators` lists them. Or a TOML file with an
+    /// oscillator of your own, as `[oscillator.custom]` of an experiment: `mine.toml`
     #[arg(long, value_name = "NAME[:P=X,…]")]
     pub oscillator: String,
-    /// Component of the driving node, and the component whose equation it enters: `x:y`
+    /// Component of the driving node, and the component whose equation it enters: `x:y`. Or formulas of
+    /// what enters which equation: `x=x,y=tanh(y)`
     #[arg(long, value_name = "FROM:TO")]
     pub coupling: String,
 }
 
-impl NodeArgs {
-    /// The table `[oscillator.NAME]` and the components that are coupled, checked.
-    pub fn tables(&self) -> Result<(Value, [&str; 2])> {
-        let (oscillator, model) = oscillator(&self.oscillator)?;
-        let (from, to) = self.components()?;
-        coupling(model, (from, to))?;
-        Ok((oscillator, [from, to]))
-    }
+/// The same in the words of experiment files, checked.
+pub struct NodeTables {
+    /// `[oscillator.NAME]`.
+    pub oscillator: Value,
+    /// The coupling function in `[coupling]`.
+    pub function: Table,
+    /// What they make.
+    pub node: Node,
+}
 
+impl NodeArgs {
+    /// The tables of an experiment file, checked.
+    pub fn tables(&self) -> Result<NodeTables> {
+        let own = self.oscillator.ends_with(".toml").then(|| own(Path::new(&self.oscillator)));
+        let (oscillator, file) = match own.transpose()? {
+            Some((table, text)) => (table, Some(text)),
+            None => (known(&self.oscillator)?, None),
+        };
+        let function = function(&self.coupling)?;
+        let document = Table::from_iter([
+            ("oscillator".to_owned(), oscillator.clone()),
+            ("coupling".to_owned(), function.clone().into()),
+        ]);
+        let options = Path::new("the options");
+        let origin = match &file {
+            Some(text) => (Path::new(&self.oscillator), text.as_str()),
+            None => (options, ""),
+        };
+        let node = experiment::node_of(&document, origin)?;
+        Ok(NodeTables { oscillator, function, node })
+    }
+}
+
+impl NodeTables {
     /// How far the curve of Λ must reach, by a first look.
     pub fn reach(&self, stages: &Stages, journal: &Journal) -> Result<f64> {
-        let (_, model) = oscillator(&self.oscillator)?;
-        let node = Node { model, coupling: coupling(model, self.components()?)? };
-        computed::reach(&node, &FIRST_LOOK, stages, journal)
+        let times = computed::first_look(self.node.dynamics().is_map(), STEP);
+        computed::reach(&self.node, &times, stages, journal)
             .map_err(|error| Problem::from_error("the master stability function", error))
     }
 
-    /// The components that `--coupling` names.
-    fn components(&self) -> Result<(&str, &str)> {
-        self.coupling.split_once(':').ok_or_else(|| {
-            let message =
-                format!("`--coupling {}` must be two components, such as x:y", self.coupling);
-            let hint =
-                oscillator(&self.oscillator).map_or_else(|_| String::new(), |(_, m)| components(m));
-            Problem::new(message).hint(hint)
-        })
+    /// `[coupling]` with a coupling matrix.
+    pub fn coupling(&self, matrix: &str) -> Value {
+        let mut coupling = Table::from_iter([("matrix".to_owned(), matrix.into())]);
+        coupling.extend(self.function.clone());
+        coupling.into()
     }
 }
 
@@ -66,50 +89,95 @@ pub fn text(document: &Table) -> Result<String> {
         .map_err(|error| Problem::from_error("the options cannot be written as TOML", error))
 }
 
+/// The table `[oscillator.…]` of a file, or the file as `[oscillator.custom]`, with its text.
+fn own(file: &Path) -> Result<(Value, String)> {
+    let text = load::text(file)?;
+    let spec = load::oscillator(&text, file)?;
+    let table = Value::try_from(&spec)
+        .map_err(|error| Problem::from_error("cannot be written as TOML", error).in_file(file))?;
+    Ok((table, text))
+}
+
 /// `NAME` or `NAME:PARAMETER=VALUE,…` as the table `[oscillator.NAME]`.
-fn oscillator(text: &str) -> Result<(Value, Model)> {
+fn known(text: &str) -> Result<Value> {
     let (name, parameters) = text.split_once(':').unwrap_or((text, ""));
-    let known: Vec<&str> = Model::all().iter().map(Model::name).collect();
-    if !known.contains(&name) {
-        let hint = match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
+    let library = oscillators::library();
+    let Some(entry) = library.iter().find(|entry| entry.name == name) else {
+        let hint = hint(name, library.iter().map(|entry| entry.name));
         return Err(Problem::new(format!("there is no oscillator `{name}`")).hint(hint));
-    }
+    };
     let mut values = Table::new();
-    for entry in parameters.split(',').filter(|entry| !entry.is_empty()) {
-        let value = entry.split_once('=').and_then(|(key, value)| {
+    for given in parameters.split(',').filter(|given| !given.is_empty()) {
+        let value = given.split_once('=').and_then(|(key, value)| {
             let value = value.trim().parse::<f64>().ok()?;
             Some((key.trim().to_owned(), value))
         });
         // With larger ones orbits leave the bounds within which they count as finite.
         let Some((key, value)) = value.filter(|(_, value)| value.abs() <= 1e6) else {
             let message = format!(
-                "`--oscillator {text}`: `{entry}` is no parameter, expected one such as r=35, of a \
+                "`--oscillator {text}`: `{given}` is no parameter, expected one such as r=35, of a \
                  size up to 1e6"
             );
             return Err(Problem::new(message));
         };
-        values.insert(key, value.into());
+        if !entry.equations.parameters.contains_key(&key) {
+            let known = entry.equations.parameters.keys().map(String::as_str);
+            let each: Vec<String> = known.clone().map(|known| format!("`{known}`")).collect();
+            let message = format!(
+                "`--oscillator {text}`: `{name}` has no parameter `{key}`; it has {}",
+                each.join(", ")
+            );
+            return Err(Problem::new(message).hint(hint(&key, known)));
+        }
+        if values.insert(key.clone(), value.into()).is_some() {
+            return Err(Problem::new(format!("`--oscillator {text}`: `{key}` is given twice")));
+        }
     }
-    let value = table([(name, values.into())]);
-    let model = value.clone().try_into().map_err(|error: toml::de::Error| {
-        Problem::new(format!("`--oscillator {text}`: {}", error.message().trim_end()))
-    })?;
-    Ok((value, model))
+    Ok(table([(name, values.into())]))
 }
 
-fn components(model: Model) -> String {
-    format!("`{}` has components {}", model.name(), model.components().join(", "))
+/// The known name that may have been meant, or all of them.
+fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    match nearest(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known here: {}", known.collect::<Vec<_>>().join(", ")),
+    }
 }
 
-fn coupling(model: Model, (from, to): (&str, &str)) -> Result<dynamics::Coupling> {
-    let component = |name: &str| {
-        model.components().iter().position(|known| *known == name).ok_or_else(|| {
-            Problem::new(format!("`--coupling` names the component \"{name}\""))
-                .hint(components(model))
-        })
+/// `FROM:TO`, or `COMPONENT=FORMULA,…`, as entries of `[coupling]`.
+fn function(text: &str) -> Result<Table> {
+    if let Some((from, to)) = text.split_once(':') {
+        let entries = [("from", from), ("to", to)];
+        return Ok(entries.map(|(key, name)| (key.to_owned(), name.into())).into_iter().collect());
+    }
+    let formula = |entry: &str| {
+        let (component, formula) = entry.split_once('=')?;
+        Some((component.trim().to_owned(), formula.trim().into()))
     };
-    Ok(dynamics::Coupling::pair(component(from)?, component(to)?))
+    let formulas: Option<Vec<(String, Value)>> = apart(text).into_iter().map(formula).collect();
+    let formulas = formulas.ok_or_else(|| {
+        let message = format!(
+            "`--coupling {}` must be two components, such as x:y, or formulas, such as y=tanh(x)",
+            shown(text)
+        );
+        Problem::new(message)
+    })?;
+    let mut function = Table::new();
+    for (component, formula) in formulas {
+        if function.insert(component.clone(), formula).is_some() {
+            let message = format!("`--coupling {}`: `{component}` is given twice", shown(text));
+            return Err(Problem::new(message));
+        }
+    }
+    Ok(Table::from_iter([("function".to_owned(), function.into())]))
+}
+
+/// Cut at the commas outside of parentheses.
+fn apart(text: &str) -> Vec<&str> {
+    let mut depth = 0;
+    text.split(|c| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        c == ',' && depth == 0
+    })
+    .collect()
 }

@@ -12,12 +12,12 @@ use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
 use crate::begun::Begun;
-use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
+use crate::options::{NodeArgs, NodeTables, SIGMA_POINTS, table, text};
 use crate::output::{document as print_document, say, tell};
 use crate::run::seconds;
 use crate::signals;
 use experiment::load;
-use experiment::spec::{Format, MatrixKind};
+use experiment::spec::{Experiment, Format, MatrixKind};
 use experiment::{Plan, Text, plan_of};
 use journal::Journal;
 use results_folder::{STANDARD_INPUT, id};
@@ -141,14 +141,15 @@ pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
     let input = Input::of(args)?;
     let id = id(&input.file)?;
-    let document = experiment(args, &input)?;
+    let node = args.node.tables()?;
+    let document = experiment(args, &node, &input)?;
     let (made_from, how) = (("predict", &*input.named), (args.quick, args.fresh));
     let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let origin = place.origin().clone();
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
     let predicted = || {
-        let plan = plan(args, document, &input, (&origin.file, &id, &stages, &journal))?;
+        let plan = plan(args, (document, &node), &input, (&origin.file, &id, &stages, &journal))?;
         let work = Work { plan: &plan, journal: &journal, stages: &stages };
         let found = findings::find(&work, &mut Curves::default())
             .map_err(|problem| problem.renamed(&plan.file, &input.named))?;
@@ -176,14 +177,14 @@ pub fn run(args: &Args) -> Result<()> {
 /// The plan of the experiment file, with the curve's reach, which takes a first look at Λ.
 fn plan(
     args: &Args,
-    mut document: Table,
+    (mut document, node): (Table, &NodeTables),
     input: &Input,
     (origin, id, stages, journal): (&Path, &str, &Stages, &Journal),
 ) -> Result<Plan> {
     let file = input.file.with_extension("toml");
     let sigma = table([
         ("from", 0.0.into()),
-        ("to", args.node.reach(stages, journal)?.into()),
+        ("to", node.reach(stages, journal)?.into()),
         ("points", SIGMA_POINTS.into()),
     ]);
     document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
@@ -230,7 +231,7 @@ fn spectrum(args: &Args) -> Value {
 fn keep(plan: &mut Plan, mut document: Table, network: &Path) -> Result<()> {
     document["network"]["file"]["path"] = utf8(network)?.into();
     let text = text(&document)?;
-    plan.written = load::parse(&text, Path::new(results::EXPERIMENT))?.1;
+    plan.written = load::parse::<Experiment>(&text, Path::new(results::EXPERIMENT))?.written;
     plan.kept = vec![(results::EXPERIMENT.to_owned(), text.into_bytes().into())];
     Ok(())
 }
@@ -241,9 +242,8 @@ fn utf8(path: &Path) -> Result<&str> {
 }
 
 /// The experiment file beside the network that says what the options say, but for the curve.
-fn experiment(args: &Args, input: &Input) -> Result<Table> {
+fn experiment(args: &Args, node: &NodeTables, input: &Input) -> Result<Table> {
     let name_of_file = input.name()?;
-    let (oscillator, [from, to]) = args.node.tables()?;
     let mut document = toml! {
         seed = 1
     };
@@ -260,10 +260,8 @@ fn experiment(args: &Args, input: &Input) -> Result<Table> {
         file.insert("variable".into(), variable.as_str().into());
     }
     document.insert("network".into(), table([("file", file.into())]));
-    document.insert("oscillator".into(), oscillator);
-    let coupling =
-        [("matrix", name(&args.matrix).into()), ("from", from.into()), ("to", to.into())];
-    document.insert("coupling".into(), table(coupling));
+    document.insert("oscillator".into(), node.oscillator.clone());
+    document.insert("coupling".into(), node.coupling(&name(&args.matrix)));
     document.insert("spectrum".into(), spectrum(args));
     if let Some(threshold) = args.threshold {
         document.insert("prediction".into(), table([("threshold", threshold.into())]));

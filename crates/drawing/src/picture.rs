@@ -31,11 +31,17 @@ pub fn picture(plan: &Plan, findings: &Findings) -> Picture {
     if plan.figure.kind == FigureKind::None {
         return Picture::default();
     }
-    let mut warnings = foreseen(plan);
-    let drawn = guarded(|| {
-        let figure = chosen_panels(figure(plan, findings), &plan.figure.panels, &mut warnings);
-        figure.drawn().map_err(|error| error.to_string())
-    });
+    let mut foreseen = foreseen(plan);
+    let letters = &plan.figure.panels;
+    let mut picture = files(|| chosen_panels(figure(plan, findings), letters, &mut foreseen));
+    foreseen.append(&mut picture.warnings);
+    Picture { warnings: foreseen, ..picture }
+}
+
+/// The files of a figure, as far as it can be made.
+pub fn files(figure: impl FnOnce() -> Figure) -> Picture {
+    let mut warnings = Vec::new();
+    let drawn = guarded(|| figure().drawn().map_err(|error| error.to_string()));
     let svg = match drawn {
         Ok(Drawn { svg, left_out }) => {
             warnings.extend(left_out.iter().map(|error| format!("{error}: it is left empty")));

@@ -17,9 +17,10 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
 use dynamics::{
-    Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, QUIET,
-    ROUNDING_KICK, Replica, Schedule, Simulation, SparseMatrix, Work,
+    Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, Oscillator, QUIET,
+    ROUNDING_KICK, Replica, Schedule, Simulation, SparseMatrix, Text, Work,
 };
+use equations::{Description, System};
 
 fn x_into_x() -> Coupling {
     Coupling::pair(0, 0)
@@ -73,6 +74,33 @@ fn simulate(criterion: &mut Criterion) {
     }
 }
 
+/// The same equations as text: what a program takes beside compiled ones.
+fn text() -> Text {
+    let neuron = HindmarshRose::default();
+    let system = System::read(&Description {
+        components: HindmarshRose::COMPONENTS.to_vec(),
+        equations: vec![
+            ("x", "y + x^2*(3 - x) - z + current"),
+            ("y", "1 - x^2*5 - y"),
+            ("z", "((x + 1.6)*s - z)*r"),
+        ],
+        parameters: vec![("r", neuron.r), ("s", neuron.s), ("current", neuron.current)],
+        ..Description::default()
+    });
+    Text::new(&system.expect("these are equations"), HindmarshRose::START.to_vec())
+}
+
+fn simulate_text(criterion: &mut Criterion) {
+    let communities = networks::coupling_matrix(&networks::communities90());
+    let compiled = simulation(communities.matrix(), 1000, Observables::default());
+    for lanes in [1, 16] {
+        let text = Simulation { dynamics: Arc::new(text()), ..compiled.clone() };
+        let first = |simulation: &Simulation<'_>| simulation.run(&replicas(lanes), QUIET);
+        assert_eq!(first(&compiled), first(&text), "the same bits");
+        time_run(criterion, "simulate-text/communities90", &text, lanes);
+    }
+}
+
 /// The same with all pairs observed at every sample.
 fn observe(criterion: &mut Criterion) {
     let cortex = networks::coupling_matrix(&networks::cortex989());
@@ -91,6 +119,9 @@ fn msf(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(tangents.len() as u64 * times.steps()));
         group.bench_function(name, |bencher| {
             bencher.iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, QUIET));
+        });
+        group.bench_function(format!("{name}-text"), |bencher| {
+            bencher.iter(|| master_exponents(&text(), &x_into_x(), &times, &tangents, QUIET));
         });
     }
 }
@@ -154,6 +185,6 @@ fn on_one_thread() -> Criterion {
 criterion_group! {
     name = benches;
     config = on_one_thread();
-    targets = peak, simulate, msf, observe
+    targets = peak, simulate, simulate_text, msf, observe
 }
 criterion_main!(benches);

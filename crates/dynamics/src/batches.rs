@@ -85,7 +85,8 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
         let transient = schedule.transient_samples();
         let (done, end) = (starts[0].1.sample(), transient + schedule.samples());
         if done > 0 {
-            lanes.restore(starts, (done, transient), links.n_nodes());
+            let shape = (links.n_nodes(), dynamics.n_free());
+            lanes.restore(starts, (done, transient), shape);
         }
         let mut outcomes: [Option<Outcome>; L] = std::array::from_fn(|_| None);
         if done == 0 && lanes.recorder.due(0) {
@@ -111,7 +112,7 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
             }
             if lanes.kicks.due(sample) {
                 let InLanes { network, kicks, .. } = &mut lanes;
-                network.change_state(|_, _, lanes| kicks.apply(lanes));
+                network.change_components(dynamics.n_free(), |_, _, lanes| kicks.apply(lanes));
             }
             let steps = u64::from(schedule.stride) * numbers.len() as u64;
             match observer.advanced(&numbers, steps) {
@@ -168,7 +169,12 @@ impl<const L: usize, const R: usize> InLanes<'_, L, R> {
     /// Takes up every replica where its snapshot left it.
     #[cold]
     #[inline(never)]
-    fn restore(&mut self, starts: Vec<Numbered>, (sample, transient): (u64, u64), n_nodes: usize) {
+    fn restore(
+        &mut self,
+        starts: Vec<Numbered>,
+        (sample, transient): (u64, u64),
+        (n_nodes, n_free): (usize, usize),
+    ) {
         let snapshots: Vec<Snapshot> =
             starts.into_iter().filter_map(|start| start.1.from).collect();
         let of = |lane: usize| &snapshots[lane.min(snapshots.len() - 1)];
@@ -179,7 +185,7 @@ impl<const L: usize, const R: usize> InLanes<'_, L, R> {
             (0..L).for_each(|lane| self.sums.restore(lane, &of(lane).sums));
             self.sums.go_on_after(sample - transient);
         }
-        self.kicks.go_on_after(sample, self.network.n_components() * n_nodes);
+        self.kicks.go_on_after(sample, n_free * n_nodes);
     }
 
     /// Tells of replicas in their lanes at a sample, of which a record is due.

@@ -1,20 +1,32 @@
 //! The coupling function H(x) = B h(x): what a node sends, h, and how it enters the equations of the
 //! node that it drives, B.
 
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-/// A linear coupling function: h are C components of the driving node, its channels, and B a sparse
-/// matrix of shape (D, C).
-///
-/// DH is B at the columns of the components that h reads.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+use equations::{Kind, Program, System};
+
+use crate::InstructionSet;
+use crate::linearised::{Linearised, LinearisedMut};
+use crate::programs;
+
+/// A coupling function: C channels h that a node sends, and B, a sparse matrix of shape (D, C).
+#[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
-    channels: Vec<usize>,
+    channels: Channels,
     gains: Vec<Gain>,
 }
 
+/// What a node sends.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Channels {
+    /// Some of its components, which are read where they stand.
+    Components(Vec<usize>),
+    /// Functions of its components.
+    Formulas(Arc<Program>),
+}
+
 /// An entry of B.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gain {
     /// Component whose equation it enters (from 0).
     pub equation: usize,
@@ -28,7 +40,7 @@ impl Coupling {
     /// One component of the driving node enters the equation of one of the driven node, with weight 1.
     pub fn pair(from: usize, to: usize) -> Self {
         let gain = Gain { equation: to, channel: 0, weight: 1.0 };
-        Self { channels: vec![from], gains: vec![gain] }
+        Self { channels: Channels::Components(vec![from]), gains: vec![gain] }
     }
 
     /// H(x) = M x for a matrix M, row by row: `rows[d][c]` is the weight with which component c enters
@@ -45,12 +57,19 @@ impl Coupling {
             weight: weight(equation, channels[channel]),
         };
         let gains = entries.map(gain).filter(|gain| gain.weight != 0.0).collect();
-        Self { channels, gains }
+        Self { channels: Channels::Components(channels), gains }
     }
 
-    /// The component that each channel reads.
-    pub fn channels(&self) -> &[usize] {
-        &self.channels
+    /// H from formulas: the one of a component enters its equation, and components without one are not
+    /// driven.
+    ///
+    /// # Panics
+    /// When the system is a flow or a map.
+    pub fn formulas(system: &System) -> Self {
+        assert_eq!(system.kind(), Kind::Coupling, "a coupling function is no dynamics");
+        let gain = |(channel, equation)| Gain { equation, channel, weight: 1.0 };
+        let gains = system.with_equation().enumerate().map(gain).collect();
+        Self { channels: Channels::Formulas(Arc::new(Program::new(system))), gains }
     }
 
     /// The entries of B, equation by equation.
@@ -58,9 +77,67 @@ impl Coupling {
         &self.gains
     }
 
-    /// The entries of DH: equation, component, weight.
-    pub fn derivative(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.gains.iter().map(|gain| (gain.equation, self.channels[gain.channel], gain.weight))
+    /// How many signals a node sends.
+    pub fn n_channels(&self) -> usize {
+        match &self.channels {
+            Channels::Components(components) => components.len(),
+            Channels::Formulas(program) => program.n_outputs(),
+        }
+    }
+
+    /// h(x) and Dh(x) δ of every number, channel by channel.
+    pub fn send(&self, set: InstructionSet, at: Linearised<'_>, to: LinearisedMut<'_, '_>) {
+        self.channels.send_tangents(set, at, to);
+    }
+
+    pub(crate) fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// The entries of DH, if they are the same at every state: equation, component, weight.
+    pub(crate) fn constant_derivative(
+        &self,
+    ) -> Option<impl Iterator<Item = (usize, usize, f64)> + use<'_>> {
+        let Channels::Components(channels) = &self.channels else { return None };
+        let entry = |gain: &Gain| (gain.equation, channels[gain.channel], gain.weight);
+        Some(self.gains.iter().map(entry))
+    }
+}
+
+impl Channels {
+    /// h(x) of every number: `x[c]` are as many numbers of component c, and `to[k]` of channel k.
+    pub(crate) fn send(&self, set: InstructionSet, x: &[&[f64]], to: &mut [&mut [f64]]) {
+        match self {
+            Self::Components(components) => {
+                for (&component, to) in components.iter().zip(to) {
+                    to.copy_from_slice(x[component]);
+                }
+            }
+            Self::Formulas(program) => {
+                programs::evaluate(program, set, &x[..program.n_inputs()], to);
+            }
+        }
+    }
+
+    /// h(x) and Dh(x) δ of every number, in the same layout.
+    pub(crate) fn send_tangents(
+        &self,
+        set: InstructionSet,
+        at: Linearised<'_>,
+        to: LinearisedMut<'_, '_>,
+    ) {
+        let Linearised { value, tangent } = at;
+        match self {
+            Self::Components(_) => {
+                self.send(set, value, to.value);
+                self.send(set, tangent, to.tangent);
+            }
+            Self::Formulas(program) => {
+                let n = program.n_inputs();
+                let at = Linearised { value: &value[..n], tangent: &tangent[..n] };
+                programs::linearise(program, set, at, to);
+            }
+        }
     }
 }
 
@@ -77,8 +154,8 @@ mod tests {
     #[test]
     fn a_matrix_has_a_channel_for_each_component_that_it_reads() {
         let rotation = Coupling::matrix(&[vec![0.6, 0.0, 0.8], vec![0.0; 3], vec![-0.8, 0.0, 0.6]]);
-        assert_eq!(rotation.channels(), [0, 2]);
-        let entries: Vec<_> = rotation.derivative().collect();
+        assert_eq!(*rotation.channels(), Channels::Components(vec![0, 2]));
+        let entries: Vec<_> = rotation.constant_derivative().into_iter().flatten().collect();
         assert_eq!(entries, [(0, 0, 0.6), (0, 2, 0.8), (2, 0, -0.8), (2, 2, 0.6)]);
     }
 }

@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use crate::statistics::BLOCKS;
 
-/// An orbit has escaped when a component exceeds this size. Attractors of the oscillators here stay
+/// An orbit has escaped when a component exceeds this size, where equations do not say otherwise
+/// ([`crate::NodeDynamics::escape_radius`]). Attractors of the oscillators here stay
 /// below 10³, in the units of their equations.
 pub const ESCAPE_RADIUS: f64 = 1e6;
 
@@ -17,6 +18,22 @@ pub enum DynamicsError {
     BadStep {
         /// Step in model time units.
         step: f64,
+    },
+    /// A step of a map that is not 1.
+    #[error("the step is {step}; a map goes in steps of 1")]
+    StepOfMap {
+        /// Step in iterations.
+        step: f64,
+    },
+    /// A map that would be integrated, or a flow that would be iterated.
+    #[error(
+        "the equations are those of a {}, {}",
+        if *is_map { "map" } else { "flow" },
+        if *is_map { "which is iterated, not integrated" } else { "which is integrated, not iterated" }
+    )]
+    WrongMethod {
+        /// Whether they are a map's.
+        is_map: bool,
     },
     /// A span of time that is negative or not finite.
     #[error("the {name} is {value}; it must be finite and not negative")]
@@ -68,6 +85,12 @@ pub enum DynamicsError {
         /// Model time at which it was seen.
         time: f64,
     },
+    /// Tangents grew beyond all numbers between two renormalisations.
+    #[error("at sigma = {sigma} tangents grow beyond all numbers between two renormalisations")]
+    Overflow {
+        /// σ of the first of them.
+        sigma: f64,
+    },
     /// The observer, or whoever is told of progress, wanted to stop.
     #[error("the work was stopped before its end")]
     Cancelled,
@@ -90,6 +113,14 @@ pub(crate) fn check_times(
     let (samples, needed) = (whole(samples), BLOCKS as u64);
     if samples < needed {
         return Err(DynamicsError::TooFewSamples { samples, needed });
+    }
+    Ok(())
+}
+
+/// Refuses any step of a map but 1.
+pub(crate) fn check_step(is_map: bool, step: f64) -> Result<(), DynamicsError> {
+    if is_map && step != 1.0 {
+        return Err(DynamicsError::StepOfMap { step });
     }
     Ok(())
 }

@@ -1,8 +1,10 @@
-//! An isolated oscillator, ẋ = F(x), followed step by step with RK4.
+//! An isolated oscillator, ẋ = F(x), followed step by step with RK4, or iterated where
+//! it is a map.
 
 use crate::integrators::rk4;
 use crate::random::initial_states;
-use crate::{DynamicsError, ESCAPE_RADIUS, NodeDynamics};
+use crate::tile::{MAX_COMPONENTS, slices, slices_mut};
+use crate::{DynamicsError, InstructionSet, NodeDynamics};
 
 /// An isolated oscillator on its way from the initial state of a seed.
 pub(crate) struct IsolatedOrbit<'a> {
@@ -28,14 +30,25 @@ impl<'a> IsolatedOrbit<'a> {
     pub(crate) fn advance(&mut self) {
         match self.dynamics.fused() {
             Some(fused) => fused.advance(&mut self.state, self.step),
+            None if self.dynamics.is_map() => self.iterate(),
             None => rk4::advance(self.dynamics, &mut self.state, self.step),
         }
         self.steps += 1;
     }
 
-    /// The state, unless it has left the ball of radius [`ESCAPE_RADIUS`].
+    /// The next state of a map.
+    fn iterate(&mut self) {
+        let n = self.state.len();
+        let mut next = [0.0; MAX_COMPONENTS];
+        let (at, mut to) = (slices(self.state.chunks(1)), slices_mut(next.chunks_mut(1)));
+        self.dynamics.flow(InstructionSet::Baseline, &at[..n], &mut to[..n]);
+        self.state.copy_from_slice(&next[..n]);
+    }
+
+    /// The state, unless it has left the ball of its radius of escape.
     pub(crate) fn bounded(&self) -> Result<&[f64], DynamicsError> {
-        if self.state.iter().all(|x| x.abs() <= ESCAPE_RADIUS) {
+        let radius = self.dynamics.escape_radius();
+        if self.state.iter().take(self.dynamics.n_free()).all(|x| x.abs() <= radius) {
             return Ok(&self.state);
         }
         Err(self.escaped())

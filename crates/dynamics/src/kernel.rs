@@ -1,4 +1,5 @@
-//! A step of a network, `dx_i/dt = F(x_i) + ε Σ_j w_ij H(x_j)`: Fan, Wang & Wang (2023), Eq. (1).
+//! A step of a network, `dx_i/dt = F(x_i) + ε Σ_j w_ij H(x_j)`: Fan, Wang & Wang (2023), Eq. (1); of maps,
+//! `x_i(n + 1) = F(x_i(n)) + ε Σ_j w_ij H(x_j(n))`.
 //!
 //! Lanes are replicas (couplings, seeds) advanced side by side. In memory the nodes of one component
 //! follow one another, each with its lanes, and are cut into runs of [`TILE`] numbers. Some runs at a
@@ -11,13 +12,13 @@
 //! results do not depend on the number of lanes, of threads, or on the machine.
 
 use crate::aligned::Aligned;
-use crate::coupling::Gain;
+use crate::coupling::{Channels, Gain};
 use crate::links::Links;
 use crate::random::initial_states;
 use crate::row_sums::RowSums;
 use crate::stage::{POINTS, RUNS, Stage, Strength, by_flow};
-use crate::tile::{TILE, Tile};
-use crate::{Coupling, ESCAPE_RADIUS, InstructionSet, NodeDynamics, Replica};
+use crate::tile::{TILE, Tile, slices, slices_mut};
+use crate::{Coupling, InstructionSet, NodeDynamics, Replica};
 
 /// A network of `L` replicas, its rows summed `R` side by side.
 pub(crate) struct Network<'a, const L: usize, const R: usize> {
@@ -26,9 +27,11 @@ pub(crate) struct Network<'a, const L: usize, const R: usize> {
     coupling: &'a Coupling,
     strengths: Vec<Strength>,
     rows: RowSums<L, R>,
-    /// x, x_1, x_2, x_3 as `[point][component][place][lane]`; where a component that is a channel
-    /// ends, the signals go on, see [`RowSums`].
+    /// x, x_1, x_2, x_3 as `[point][component][place][lane]`; of a map x and the next one. Where a
+    /// component that is a channel ends, the signals go on, see [`RowSums`].
     points: Vec<Aligned>,
+    /// Signals that are not components, channel by channel.
+    signals: Vec<Aligned>,
     /// Of some runs, channel by channel.
     inputs: Vec<[Tile; RUNS]>,
     /// Of some runs, component by component.
@@ -44,14 +47,17 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
     ) -> Self {
         let rows = RowSums::new(links);
         let n_components = dynamics.start().len();
-        let length = |c: usize| {
-            if coupling.channels().contains(&c) { rows.n_signals() } else { rows.n_runs() * TILE }
+        let (sent, n_sent) = match coupling.channels() {
+            Channels::Components(components) => (components.as_slice(), 0),
+            Channels::Formulas(_) => (&[][..], coupling.n_channels()),
         };
-        let points = (0..POINTS * n_components).map(|k| Aligned::zeros(length(k % n_components)));
-        let strength = |gain: &Gain| Strength {
-            equation: gain.equation,
-            channel: gain.channel,
-            of: std::array::from_fn(|number| replicas[number % L].epsilon * gain.weight),
+        let length =
+            |c: usize| if sent.contains(&c) { rows.n_signals() } else { rows.n_runs() * TILE };
+        let n_points = if dynamics.is_map() { 2 } else { POINTS };
+        let points = (0..n_points * n_components).map(|k| Aligned::zeros(length(k % n_components)));
+        let strength = |&Gain { equation, channel, weight }: &Gain| {
+            let of = std::array::from_fn(|number| replicas[number % L].epsilon * weight);
+            Strength { equation, channel, of, of_runs: vec![of; RUNS] }
         };
         let mut network = Self {
             dynamics,
@@ -59,7 +65,8 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
             coupling,
             strengths: coupling.gains().iter().map(strength).collect(),
             points: points.collect(),
-            inputs: vec![[[0.0; TILE]; RUNS]; coupling.channels().len()],
+            signals: (0..n_sent).map(|_| Aligned::zeros(rows.n_signals())).collect(),
+            inputs: vec![[[0.0; TILE]; RUNS]; coupling.n_channels()],
             slopes: vec![[[0.0; TILE]; RUNS]; n_components],
             rows,
         };
@@ -72,27 +79,49 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
     }
 
     pub(crate) fn n_components(&self) -> usize {
-        self.points.len() / POINTS
+        self.slopes.len()
     }
 
     /// Advances every node by some steps h.
     #[inline(always)]
     pub(crate) fn advance(&mut self, n_steps: u32, h: f64) {
         let n_components = self.n_components();
-        let Self { dynamics, instruction_set, coupling, strengths, rows, points, inputs, slopes } =
+        let Self { dynamics, instruction_set, coupling, strengths, rows, inputs, slopes, .. } =
             self;
-        let mut points: Vec<&mut [Tile]> = points.iter_mut().map(runs_mut).collect();
+        let mut points: Vec<&mut [Tile]> = self.points.iter_mut().map(runs_mut).collect();
+        let mut signals: Vec<&mut [Tile]> = self.signals.iter_mut().map(runs_mut).collect();
         let fused = dynamics.fused();
-        for point in (0..n_steps).flat_map(|_| 0..POINTS) {
-            for &from in coupling.channels() {
-                let signals = &mut points[point * n_components + from];
-                rows.share(signals.as_flattened_mut().as_chunks_mut().0);
+        let n_evaluations = if dynamics.is_map() { 1 } else { POINTS };
+        for point in (0..n_steps).flat_map(|_| 0..n_evaluations) {
+            let here = &mut points[point * n_components..][..n_components];
+            match coupling.channels() {
+                Channels::Components(components) => {
+                    for &from in components {
+                        rows.share(here[from].as_flattened_mut().as_chunks_mut().0);
+                    }
+                }
+                channels @ Channels::Formulas(_) => {
+                    let n_runs = rows.n_runs();
+                    let at = slices(here.iter().map(|x| x[..n_runs].as_flattened()));
+                    let n_sent = signals.len();
+                    let mut to = slices_mut(
+                        signals.iter_mut().map(|sent| sent[..n_runs].as_flattened_mut()),
+                    );
+                    channels.send(*instruction_set, &at[..n_components], &mut to[..n_sent]);
+                    for sent in &mut signals {
+                        rows.share(sent.as_flattened_mut().as_chunks_mut().0);
+                    }
+                }
             }
             let mut start = 0;
             while start < rows.n_runs() {
                 let end = (start + RUNS).min(rows.n_runs());
-                for (inputs, &from) in inputs.iter_mut().zip(coupling.channels()) {
-                    let signals = points[point * n_components + from].as_flattened().as_chunks().0;
+                for (channel, inputs) in inputs.iter_mut().enumerate() {
+                    let sent: &[Tile] = match coupling.channels() {
+                        Channels::Components(from) => points[point * n_components + from[channel]],
+                        Channels::Formulas(_) => signals[channel],
+                    };
+                    let signals = sent.as_flattened().as_chunks().0;
                     for run in start..end {
                         rows.put_inputs(run, signals, &mut inputs[run - start]);
                     }
@@ -112,6 +141,13 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                 }
                 start = end;
             }
+            if dynamics.is_map() {
+                let (now, next) = points.split_at_mut(n_components);
+                now.swap_with_slice(next);
+            }
+        }
+        if dynamics.is_map() && n_steps % 2 == 1 {
+            self.points.rotate_left(n_components);
         }
     }
 
@@ -129,8 +165,17 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
 
     /// Changes the lanes of every component of every node, in this order.
     #[inline(always)]
-    pub(crate) fn change_state(&mut self, mut change: impl FnMut(usize, usize, &mut [f64; L])) {
-        let n_components = self.n_components();
+    pub(crate) fn change_state(&mut self, change: impl FnMut(usize, usize, &mut [f64; L])) {
+        self.change_components(self.n_components(), change);
+    }
+
+    /// The same of the first components.
+    #[inline(always)]
+    pub(crate) fn change_components(
+        &mut self,
+        n_components: usize,
+        mut change: impl FnMut(usize, usize, &mut [f64; L]),
+    ) {
         for (c, component) in self.points[..n_components].iter_mut().enumerate() {
             let placed = component.as_chunks_mut().0;
             for (node, &place) in self.rows.places().iter().enumerate() {
@@ -139,14 +184,16 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         }
     }
 
-    /// Lane by lane, whether every component of every node is within [`ESCAPE_RADIUS`]; a NaN is not.
+    /// Lane by lane, whether every component of every node but a clock is within the radius of escape; a
+    /// NaN is not.
     #[inline(always)]
     pub(crate) fn bounded(&self) -> [bool; L] {
+        let radius = self.dynamics.escape_radius();
         // 1 where a number was found outside.
         let mut outside = [0.0; L];
-        for lanes in (0..self.n_components()).flat_map(|c| self.component(c)) {
+        for lanes in (0..self.dynamics.n_free()).flat_map(|c| self.component(c)) {
             for (outside, x) in outside.iter_mut().zip(lanes) {
-                *outside = if x.abs() < ESCAPE_RADIUS { *outside } else { 1.0 };
+                *outside = if x.abs() < radius { *outside } else { 1.0 };
             }
         }
         outside.map(|outside| outside == 0.0)

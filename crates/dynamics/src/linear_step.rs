@@ -53,8 +53,8 @@ pub enum StepVerdict {
 
 /// Jacobians along an orbit of the isolated oscillator.
 pub struct LinearSteps {
-    jacobians: Vec<DMatrix<f64>>,
-    coupling: Coupling,
+    /// DF and DH.
+    jacobians: Vec<[DMatrix<f64>; 2]>,
 }
 
 impl LinearSteps {
@@ -62,6 +62,9 @@ impl LinearSteps {
     ///
     /// # Errors
     /// [`DynamicsError::BadStep`]; [`DynamicsError::Escaped`] where the orbit does even so.
+    ///
+    /// # Panics
+    /// For a map, which has no step.
     pub fn along_orbit(
         dynamics: &dyn NodeDynamics,
         coupling: &Coupling,
@@ -71,8 +74,19 @@ impl LinearSteps {
         if !(step.is_finite() && step > 0.0) {
             return Err(DynamicsError::BadStep { step });
         }
-        let jacobians = jacobians(dynamics, step / FINER, seed)?;
-        Ok(Self { jacobians, coupling: coupling.clone() })
+        assert!(!dynamics.is_map(), "a map has no step to judge");
+        let mut orbit = IsolatedOrbit::begin(dynamics, step / FINER, seed);
+        let mut jacobians = Vec::with_capacity(SAMPLES);
+        while jacobians.len() < SAMPLES {
+            let until = if jacobians.is_empty() { TRANSIENT } else { STRIDE };
+            (0..until).for_each(|_| orbit.advance());
+            let here = jacobians_at((dynamics, coupling), orbit.bounded()?);
+            if !here.iter().flat_map(DMatrix::iter).all(|entry| entry.is_finite()) {
+                return Err(orbit.escaped());
+            }
+            jacobians.push(here);
+        }
+        Ok(Self { jacobians })
     }
 
     /// What a step does at this σ.
@@ -130,13 +144,7 @@ impl LinearSteps {
 
     /// Eigenvalues of DF − σ DH, one Jacobian after the other.
     fn rates(&self, sigma: f64) -> impl Iterator<Item = Vec<Complex<f64>>> {
-        self.jacobians.iter().map(move |jacobian| {
-            let mut a = jacobian.clone();
-            for (equation, component, weight) in self.coupling.derivative() {
-                a[(equation, component)] -= sigma * weight;
-            }
-            eigenvalues(a)
-        })
+        self.jacobians.iter().map(move |[df, dh]| eigenvalues(df - dh * sigma))
     }
 }
 
@@ -157,43 +165,40 @@ fn growth(z: Complex<f64>) -> f64 {
     (one + z * (one + z * (one / 2.0 + z * (one / 6.0 + z / 24.0)))).norm()
 }
 
-fn jacobians(
-    dynamics: &dyn NodeDynamics,
-    step: f64,
-    seed: u64,
-) -> Result<Vec<DMatrix<f64>>, DynamicsError> {
-    let mut orbit = IsolatedOrbit::begin(dynamics, step, seed);
-    let mut jacobians = Vec::with_capacity(SAMPLES);
-    while jacobians.len() < SAMPLES {
-        let until = if jacobians.is_empty() { TRANSIENT } else { STRIDE };
-        (0..until).for_each(|_| orbit.advance());
-        let here = jacobian(dynamics, orbit.bounded()?);
-        if !here.iter().all(|entry| entry.is_finite()) {
-            return Err(orbit.escaped());
-        }
-        jacobians.push(here);
-    }
-    Ok(jacobians)
-}
-
-/// DF at a state, column by column from the tangents along the axes.
-fn jacobian(dynamics: &dyn NodeDynamics, state: &[f64]) -> DMatrix<f64> {
-    let n = state.len();
+/// DF and DH at a state, column by column from the tangents along the axes. A clock is not perturbed and
+/// has neither row nor column.
+fn jacobians_at(
+    (dynamics, coupling): (&dyn NodeDynamics, &Coupling),
+    state: &[f64],
+) -> [DMatrix<f64>; 2] {
+    let (n, n_free, set) = (state.len(), dynamics.n_free(), InstructionSet::Baseline);
     let values: Vec<Vec<f64>> = state.iter().map(|&x| vec![x; n]).collect();
     let axes = DMatrix::<f64>::identity(n, n);
-    let (mut slopes, mut columns) = (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]);
-    dynamics.tangent_flow(
-        InstructionSet::Baseline,
-        Linearised {
-            value: &values.iter().map(Vec::as_slice).collect::<Vec<_>>(),
-            tangent: &axes.as_slice().chunks(n).collect::<Vec<_>>(),
-        },
-        LinearisedMut {
-            value: &mut slopes.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
-            tangent: &mut columns.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
-        },
-    );
-    DMatrix::from_fn(n, n, |row, column| columns[row][column])
+    let (value, tangent) = (by_rows(&values), axes.as_slice().chunks(n).collect::<Vec<_>>());
+    let at = Linearised { value: &value, tangent: &tangent };
+    let columns = |n_rows: usize, of: &dyn Fn(LinearisedMut<'_, '_>)| {
+        let (mut values, mut columns) = (vec![vec![0.0; n]; n_rows], vec![vec![0.0; n]; n_rows]);
+        let (mut to, mut to_tangent) = (by_rows_mut(&mut values), by_rows_mut(&mut columns));
+        of(LinearisedMut { value: &mut to, tangent: &mut to_tangent });
+        columns
+    };
+    let df = columns(n, &|to| dynamics.tangent_flow(set, at, to));
+    let dh = columns(coupling.n_channels(), &|to| coupling.send(set, at, to));
+    let mut b_dh = DMatrix::zeros(n_free, n_free);
+    for gain in coupling.gains() {
+        for column in 0..n_free {
+            b_dh[(gain.equation, column)] += gain.weight * dh[gain.channel][column];
+        }
+    }
+    [DMatrix::from_fn(n_free, n_free, |row, column| df[row][column]), b_dh]
+}
+
+fn by_rows(rows: &[Vec<f64>]) -> Vec<&[f64]> {
+    rows.iter().map(Vec::as_slice).collect()
+}
+
+fn by_rows_mut(rows: &mut [Vec<f64>]) -> Vec<&mut [f64]> {
+    rows.iter_mut().map(Vec::as_mut_slice).collect()
 }
 
 #[cfg(test)]

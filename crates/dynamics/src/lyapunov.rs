@@ -1,7 +1,7 @@
 //! Lyapunov exponents: the largest of the master equation, and the whole spectrum of one oscillator.
 //!
-//! The master equation `δẏ = [DF(s) − σ DH] δy` (Fan, Wang & Wang 2023, Eq. (4)) is integrated with
-//! its orbit `ṡ = F(s)` as one system on dual numbers: s is the value, δy the tangent. At σ = 0 its
+//! The master equation `δẏ = [DF(s) − σ DH(s)] δy` (Fan, Wang & Wang 2023, Eq. (4)) is integrated with
+//! its orbit `ṡ = F(s)`, or iterated with that of a map, as one system on dual numbers: s is the value, δy the tangent. At σ = 0 its
 //! exponent is the largest Lyapunov exponent of the isolated oscillator.
 //!
 //! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
@@ -17,6 +17,7 @@ use growth::{Plan, estimates};
 pub use growth::{Tangent, Tangents, Times};
 use tiles::Tiles;
 
+use crate::error::check_step;
 use crate::tile::TILE;
 use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Progress, QUIET};
 
@@ -31,9 +32,10 @@ const SHARED_ORBIT: usize = 4;
 /// these are grouped into lanes or threads.
 ///
 /// # Errors
-/// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`], [`DynamicsError::TooFewSamples`] for times
-/// that make no sense; [`DynamicsError::Escaped`] when an orbit leaves the ball of radius
-/// [`crate::ESCAPE_RADIUS`].
+/// [`DynamicsError::BadStep`], [`DynamicsError::StepOfMap`], [`DynamicsError::BadTime`],
+/// [`DynamicsError::TooFewSamples`] for times that make no sense; [`DynamicsError::Escaped`] when an
+/// orbit leaves the ball of [`NodeDynamics::escape_radius`]; [`DynamicsError::Overflow`] for tangents that
+/// cannot be followed.
 pub fn master_exponents(
     dynamics: &dyn NodeDynamics,
     coupling: &Coupling,
@@ -59,22 +61,31 @@ pub fn master_exponents_with(
     tangents: &[Tangent],
     progress: Progress<'_>,
 ) -> Result<Vec<Estimate>, DynamicsError> {
+    check_step(dynamics.is_map(), times.step)?;
     let plan = Plan::new(times)?;
+    // Compiled equations take σ DH to be the same everywhere.
+    let is_constant = coupling.constant_derivative().is_some();
+    let escape_radius = dynamics.escape_radius();
     let mut order: Vec<usize> = (0..tangents.len()).collect();
     order.sort_by_key(|&index| tangents[index].seed);
     let (shared, alone): (Vec<_>, Vec<_>) = order
         .chunk_by(|&a, &b| tangents[a].seed == tangents[b].seed)
         .partition(|of_one_seed| of_one_seed.len() >= SHARED_ORBIT);
     let alone = alone.concat();
+    let fused = || dynamics.fused().filter(|_| is_constant);
+    // Equations that are not compiled want many numbers at once, but no more than keeps all threads busy.
+    let share = tangents.len().div_ceil(rayon::current_num_threads()).next_multiple_of(TILE);
+    let at_once = if fused().is_some() { TILE } else { share.clamp(TILE, tiles::MOST) };
     let batches: Vec<&[usize]> = shared
         .iter()
-        .flat_map(|of_one_seed| of_one_seed.chunks(TILE))
-        .chain(alone.chunks(TILE))
+        .flat_map(|of_one_seed| of_one_seed.chunks(at_once))
+        .chain(alone.chunks(at_once))
         .collect();
     let run = |&batch: &&[usize]| {
         let tangents: Vec<Tangent> = batch.iter().map(|&index| tangents[index]).collect();
-        let tangents = Tangents { coupling, plan: &plan, tangents: &tangents, progress };
-        match dynamics.fused() {
+        let tangents =
+            Tangents { coupling, plan: &plan, tangents: &tangents, escape_radius, progress };
+        match fused() {
             Some(fused) => fused.exponents(instruction_set, &tangents),
             None => tiles::exponents(dynamics, instruction_set, &tangents),
         }
@@ -84,6 +95,10 @@ pub fn master_exponents_with(
     let mut in_order = vec![Estimate::default(); tangents.len()];
     for (&index, exponent) in batches.iter().copied().flatten().zip(exponents.concat()) {
         in_order[index] = exponent;
+    }
+    let overflown = in_order.iter().position(|exponent| !exponent.mean.is_finite());
+    if let Some(index) = overflown {
+        return Err(DynamicsError::Overflow { sigma: tangents[index].sigma });
     }
     Ok(in_order)
 }
@@ -100,6 +115,7 @@ pub fn spectrum(
     times: &Times,
     seed: u64,
 ) -> Result<Vec<Estimate>, DynamicsError> {
+    check_step(dynamics.is_map(), times.step)?;
     let plan = Plan::new(times)?;
     let mut tiles = Tiles::axes(dynamics, InstructionSet::best(), seed);
     Ok(estimates(&plan.block_means(&mut tiles, QUIET)?, dynamics.start().len()))

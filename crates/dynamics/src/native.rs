@@ -34,6 +34,10 @@ impl<O: Oscillator<D> + fmt::Debug, const D: usize> NodeDynamics for Native<O, D
         &O::START
     }
 
+    fn is_map(&self) -> bool {
+        O::IS_MAP
+    }
+
     fn flow(&self, set: InstructionSet, x: &[&[f64]], slope: &mut [&mut [f64]]) {
         set.run(Everywhere::<O, D> { oscillator: &self.0, x: first(x), slope });
     }
@@ -44,7 +48,7 @@ impl<O: Oscillator<D> + fmt::Debug, const D: usize> NodeDynamics for Native<O, D
     }
 
     fn fused(&self) -> Option<&dyn Fused> {
-        Some(self)
+        (!O::IS_MAP).then_some(self as &dyn Fused)
     }
 }
 

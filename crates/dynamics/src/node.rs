@@ -1,14 +1,16 @@
-//! The contract of node dynamics: the equations `dx/dt = F(x)` of an isolated node, evaluated on runs of
-//! numbers, so that whatever uses them need not be compiled anew for every model.
+//! The contract of node dynamics: the equations of an isolated node, `dx/dt = F(x)` of a flow or
+//! `x(n + 1) = F(x(n))` of a map, evaluated on runs of numbers, so that whatever uses them need not be
+//! compiled anew for every model.
 //!
 //! Numbers are laid out component by component. Which node or replica one of them belongs to the
 //! equations never know, and each goes through the same operations whatever its neighbours are.
 
 use std::fmt;
 
+use crate::linearised::{Linearised, LinearisedMut};
 use crate::lyapunov::Tangents;
 use crate::stage::Stage;
-use crate::{DynamicsError, Estimate, InstructionSet};
+use crate::{DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet};
 
 /// Node dynamics F, chosen at run time: a [`crate::Native`] oscillator, a [`crate::Model`], or any other
 /// evaluation of equations.
@@ -23,13 +25,35 @@ pub trait NodeDynamics: fmt::Debug + Send + Sync {
     /// the basin of the attractor.
     fn start(&self) -> &[[f64; 2]];
 
+    /// Whether F gives the next state rather than the rate of change: time then goes in steps of 1.
+    fn is_map(&self) -> bool {
+        false
+    }
+
+    /// Whether the last component is time, as in equations that are forced: it is the same at every
+    /// node, so that it is neither coupled nor perturbed, and it may grow for ever.
+    fn has_clock(&self) -> bool {
+        false
+    }
+
+    /// An orbit has escaped when a component exceeds this size.
+    fn escape_radius(&self) -> f64 {
+        ESCAPE_RADIUS
+    }
+
+    /// Components that tell how a node is, all but a clock: the first of them.
+    fn n_free(&self) -> usize {
+        self.start().len() - usize::from(self.has_clock())
+    }
+
     /// F(x) of every number: `x[c]` and `slope[c]` are as many numbers of component c.
     fn flow(&self, set: InstructionSet, x: &[&[f64]], slope: &mut [&mut [f64]]);
 
     /// F(x) and DF(x) δ of every number, in the same layout.
     fn tangent_flow(&self, set: InstructionSet, at: Linearised<'_>, slope: LinearisedMut<'_, '_>);
 
-    /// The same equations without what goes through memory, where there are such.
+    /// The same equations without what goes through memory, where there are such; a map and equations
+    /// with a clock have none.
     fn fused(&self) -> Option<&dyn Fused> {
         None
     }
@@ -53,21 +77,4 @@ pub trait Fused {
         set: InstructionSet,
         tangents: &Tangents<'_>,
     ) -> Result<Vec<Estimate>, DynamicsError>;
-}
-
-/// States with a tangent each, component by component.
-#[derive(Clone, Copy)]
-pub struct Linearised<'a> {
-    /// The states.
-    pub value: &'a [&'a [f64]],
-    /// The tangents.
-    pub tangent: &'a [&'a [f64]],
-}
-
-/// Where slopes of states and of their tangents go, component by component.
-pub struct LinearisedMut<'a, 'b> {
-    /// F(x).
-    pub value: &'a mut [&'b mut [f64]],
-    /// DF(x) δ.
-    pub tangent: &'a mut [&'b mut [f64]],
 }

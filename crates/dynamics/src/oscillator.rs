@@ -11,6 +11,9 @@ pub trait Oscillator<const D: usize>: Copy + Send + Sync {
     /// the basin of the attractor.
     const START: [[f64; 2]; D];
 
+    /// Whether F gives the next state, `x(n + 1) = F(x(n))`.
+    const IS_MAP: bool = false;
+
     /// F(x), in the oscillator's own units of state per unit of model time.
     fn flow<S: Scalar>(&self, state: [S; D]) -> [S; D];
 }

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 /// each node.
 ///
 /// Source of the generator: M. E. O'Neill, PCG XSL RR 128/64 (2014).
-pub(crate) fn initial_states(start: &[[f64; 2]], n_nodes: usize, seed: u64) -> Vec<f64> {
+pub fn initial_states(start: &[[f64; 2]], n_nodes: usize, seed: u64) -> Vec<f64> {
     const STREAM: u128 = 0x0065_6967_656e_7379_6e63;
     let mut generator = Pcg64::new(u128::from(seed), STREAM);
     let mut draw = |[from, to]: [f64; 2]| from + (to - from) * unit_interval(generator.next_u64());

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use crate::batches::{self, Batch, Numbered};
+use crate::error::check_step;
 use crate::integrators::{Method, adaptive};
 use crate::links::Links;
 use crate::observer::Counting;
@@ -16,6 +17,7 @@ impl Simulation<'_> {
     /// Runs all replicas on the current rayon pool; results come in the order of `replicas`.
     ///
     /// # Errors
+    /// [`DynamicsError::WrongMethod`] for a map that is not iterated, or a flow that is;
     /// [`DynamicsError::BadStep`], [`DynamicsError::BadTime`] and [`DynamicsError::TooFewSamples`] for
     /// a schedule that makes no sense, [`DynamicsError::NoSuchNode`],
     /// [`DynamicsError::NoSuchComponent`], [`DynamicsError::BadTime`] and
@@ -44,6 +46,7 @@ impl Simulation<'_> {
         starts: Vec<Start>,
         observer: &dyn Observer,
     ) -> Result<Vec<Run>, DynamicsError> {
+        self.check_method()?;
         self.schedule.check()?;
         if let Some(series) = &self.series {
             series.check(&self.schedule, (self.matrix.rows(), self.dynamics.start().len()))?;
@@ -55,7 +58,7 @@ impl Simulation<'_> {
         let starts: Vec<Numbered> = starts.into_iter().enumerate().collect();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
         let told = match self.method {
-            Method::Rk4 => self.run_in_lanes(starts, observer),
+            Method::Rk4 | Method::Iterate => self.run_in_lanes(starts, observer),
             Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
                 Some((number, adaptive::run(self, method, (number, start), observer)?))
             }),
@@ -68,6 +71,15 @@ impl Simulation<'_> {
             outcome: outcome.expect("every replica is in one batch"),
         };
         Ok(replicas.into_iter().zip(outcomes).map(run).collect())
+    }
+
+    /// A map is iterated in steps of 1, and nothing else is.
+    fn check_method(&self) -> Result<(), DynamicsError> {
+        let is_map = self.dynamics.is_map();
+        if is_map != (self.method == Method::Iterate) {
+            return Err(DynamicsError::WrongMethod { is_map });
+        }
+        check_step(is_map, self.schedule.step)
     }
 
     /// Whether a snapshot has the shape of those of this simulation. Whether it is of the same

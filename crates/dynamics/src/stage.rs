@@ -17,7 +17,7 @@ pub(crate) mod fused;
 
 use std::ops::Range;
 
-use crate::Lanes;
+use crate::Scalar;
 use crate::tile::Tile;
 
 /// Runs whose inputs are summed before their equations are evaluated: enough that calling these costs
@@ -50,15 +50,13 @@ pub(crate) struct Strength {
     pub(crate) equation: usize,
     pub(crate) channel: usize,
     pub(crate) of: Tile,
+    /// The same of as many tiles as a stage has, beside which a loop over plain numbers can go.
+    pub(crate) of_runs: Vec<Tile>,
 }
 
 /// x(t + h) from the points and the slope at the last of them.
 #[inline(always)]
-pub(crate) fn last<const L: usize>(
-    [x, x_1, x_2, x_3]: [Lanes<L>; POINTS],
-    f: Lanes<L>,
-    h: f64,
-) -> Lanes<L> {
+pub(crate) fn last<S: Scalar>([x, x_1, x_2, x_3]: [S; POINTS], f: S, h: f64) -> S {
     let (d_1, d_2, d_3) = (x_1 - x, x_2 - x, x_3 - x);
     x + (((d_1 + d_3) + (d_2 + d_2)) * (1.0 / 3.0) + f * (h / 6.0))
 }

@@ -11,15 +11,6 @@ pub enum Error {
     /// The curve Λ(σ).
     #[error("the master stability function could not be computed: {0}")]
     Curve(MsfError),
-    /// A perturbation may grow beyond all numbers between two renormalisations.
-    #[error(
-        "the master stability function could not be computed: at sigma = {sigma} perturbations grow \
-         beyond all numbers between two renormalisations"
-    )]
-    Overflow {
-        /// The first σ at which it does.
-        sigma: f64,
-    },
     /// The modes.
     #[error("the spectrum could not be computed: {0}")]
     Spectrum(SpectraError),

@@ -194,18 +194,9 @@ fn looked_at<C: Compute>(
     warnings: &mut Warnings<'_>,
 ) -> Result<MasterStability, C::Error> {
     let msf = compute.curve(study)?;
-    refuse_overflow(&msf)?;
     doubts::warn_of_short_times(study, warnings);
     stability::warn(study, &msf, warnings);
     Ok(msf)
-}
-
-/// A perturbation may grow beyond all numbers between two renormalisations.
-fn refuse_overflow(msf: &MasterStability) -> Result<(), Error> {
-    match msf.lambda.iter().position(|lambda| !lambda.mean.is_finite()) {
-        Some(at) => Err(Error::Overflow { sigma: msf.sigma[at] }),
-        None => Ok(()),
-    }
 }
 
 /// λ_N: the last eigenvalue, or computed by itself where it decides and is not among the leading ones.

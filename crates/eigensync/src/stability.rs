@@ -39,6 +39,14 @@ pub fn warn(study: &Study, msf: &msf::MasterStability, warnings: &mut Warnings<'
             warnings.add("msf.stable_ends", message);
         }
     }
+    for &[from, to] in &msf.doubtful {
+        let [from, to] = [from, to].map(four_digits);
+        let message = format!(
+            "between sigma = {from} and {to} Λ comes so near zero that it may change its sign twice unseen: \
+             take a finer `msf.sigma` there, or a longer `msf.average`"
+        );
+        warnings.add("msf.doubtful", message);
+    }
     if !msf.attractors.is_empty() {
         warnings.add("msf.attractors", several(&msf.attractors));
     }

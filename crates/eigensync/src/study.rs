@@ -77,7 +77,11 @@ impl Study {
     /// up to 5000 nodes, exact clusters, no simulation.
     pub fn new(network: Network, normalization: Normalization, node: Node) -> Self {
         let n_components = network.components().len();
-        let times = Times { step: 0.01, transient: 500.0, average: 2e4, renormalise: 0.5 };
+        let times = if node.dynamics.is_map() {
+            Times { step: 1.0, transient: 1000.0, average: 1e5, renormalise: 1.0 }
+        } else {
+            Times { step: 0.01, transient: 500.0, average: 2e4, renormalise: 0.5 }
+        };
         Self {
             matrix: CouplingMatrix::new(&network, normalization),
             n_components,
@@ -121,7 +125,7 @@ impl Study {
     /// Steps of all tangent vectors of the MSF, refinement of one zero included, with what is run at
     /// half the step.
     pub fn msf_steps(&self) -> u64 {
-        (self.msf.looked_at().len() as u64 + 16 + 64 + 2 * (8 + 16)) * self.msf.times.steps()
+        self.msf.steps()
     }
 }
 
@@ -138,6 +142,16 @@ impl Sweep {
             series: None,
             synchronised_below: Bound::Fixed(0.05),
             kick: ROUNDING_KICK,
+        }
+    }
+
+    /// A sweep of maps with the defaults: a transient of 1000 and an average of 10,000 iterations, every one
+    /// of which is a sample.
+    pub fn of_maps(epsilon: Vec<f64>) -> Self {
+        Self {
+            method: Method::Iterate,
+            schedule: Schedule { step: 1.0, transient: 1000.0, average: 10_000.0, stride: 1 },
+            ..Self::over(epsilon)
         }
     }
 

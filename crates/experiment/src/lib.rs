@@ -8,10 +8,14 @@ mod hashes;
 pub mod load;
 mod machine;
 mod plan;
+mod shapes;
 pub mod spec;
 
 pub use hashes::plan_hash;
-pub use plan::{Memory, Node, Plan, QUICK, Recorded, Text, plan, plan_hash_of, plan_of};
+pub use plan::{
+    AtlasPlan, Memory, Node, Pair, Plan, Planned, QUICK, Recorded, System, Text, method, node_of,
+    plan, plan_hash_of, plan_of,
+};
 
 use std::path::Path;
 
@@ -21,6 +25,6 @@ use std::path::Path;
 /// # Errors
 /// What is wrong with it.
 pub fn check_syntax(text: &str) -> Result<(), String> {
-    let parsed = load::parse(text, Path::new("experiment.toml"));
+    let parsed = load::parse::<spec::Experiment>(text, Path::new("experiment.toml"));
     parsed.map(drop).map_err(|problem| problem.to_string())
 }

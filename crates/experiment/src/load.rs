@@ -4,9 +4,12 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue};
 
-use crate::spec::Experiment;
+use crate::shapes::shape;
+use crate::spec::{Atlas, Experiment, OscillatorSpec};
 use user::files;
 use user::text::shown;
 use user::{Problem, Result, nearest};
@@ -14,32 +17,107 @@ use user::{Problem, Result, nearest};
 /// Longest quotation of a line in a message, in characters.
 const MAX_QUOTED_CHARS: usize = 60;
 
-/// Reads and parses an experiment file. With it comes what is written there, for the record.
-pub fn experiment(path: &Path) -> Result<(Experiment, serde_json::Value)> {
-    parse(&read(path)?, path)
+/// An experiment file as it was read.
+pub struct Document<T = Experiment> {
+    /// What it says.
+    pub experiment: T,
+    /// The same as it is written, defaults left out, for the record.
+    pub written: serde_json::Value,
+    /// Its text.
+    pub text: String,
 }
 
-/// The text of a file as of [`experiment`].
-pub fn parse(text: &str, path: &Path) -> Result<(Experiment, serde_json::Value)> {
+/// A document of one of the kinds that there are.
+pub enum AnyDocument {
+    /// An experiment.
+    Experiment(Box<Document>),
+    /// An atlas, which has a table `[atlas]`.
+    Atlas(Box<Document<Atlas>>),
+}
+
+/// Reads and parses a file of any kind.
+pub fn document(path: &Path) -> Result<AnyDocument> {
+    let text = text(path)?;
+    let is_atlas = DeTable::parse(&text).is_ok_and(|table| table.get_ref().contains_key("atlas"));
+    Ok(match is_atlas {
+        true => AnyDocument::Atlas(Box::new(parse(&text, path)?)),
+        false => AnyDocument::Experiment(Box::new(parse(&text, path)?)),
+    })
+}
+
+/// The text of a file as of [`document`], of a kind that is known.
+pub fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<Document<T>> {
     if let Ok(document) = DeTable::parse(text) {
         refuse_lists(document.get_ref(), "", text, path)?;
     }
     let parsed = toml::from_str(text).and_then(|spec| Ok((spec, toml::from_str(text)?)));
-    parsed.map_err(|error: toml::de::Error| {
-        let span = error.span().unwrap_or(0..0);
-        let problem = match DeTable::parse(text) {
-            Ok(table) => explain(error.message().trim_end(), table.get_ref(), &span, text),
-            Err(_) => {
-                let (line, message) = (line_at(text, span.start), invalid(error.message()));
-                Problem::new(format!("`{line}` is not valid TOML: {message}"))
-            }
-        };
-        problem.at(place(path, text, span.start))
-    })
+    let document = |(experiment, written)| Document { experiment, written, text: text.to_owned() };
+    parsed.map(document).map_err(|error| told(&error, text, path))
+}
+
+/// An oscillator that a text holds: the table `[oscillator.…]` of an experiment, or the keys of
+/// `[oscillator.custom]` by themselves.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn oscillator(text: &str, path: &Path) -> Result<OscillatorSpec> {
+    #[derive(Deserialize)]
+    struct Holds {
+        oscillator: OscillatorSpec,
+    }
+    let told = |error| told(&error, text, path);
+    let by_themselves = DeTable::parse(text).is_ok_and(|table| {
+        let has = |key| table.get_ref().contains_key(key);
+        !has("oscillator") && (has("flow") || has("map"))
+    });
+    if by_themselves {
+        return toml::from_str(text).map(Box::new).map(OscillatorSpec::Custom).map_err(told);
+    }
+    toml::from_str(text).map(|holds: Holds| holds.oscillator).map_err(told)
+}
+
+/// What the parser says, in our words and with its place.
+fn told(error: &toml::de::Error, text: &str, path: &Path) -> Problem {
+    let span = error.span().unwrap_or(0..0);
+    let problem = match DeTable::parse(text) {
+        Ok(table) => explain(error.message().trim_end(), table.get_ref(), &span, text),
+        Err(_) => {
+            let (line, message) = (line_at(text, span.start), invalid(error.message()));
+            Problem::new(format!("`{line}` is not valid TOML: {message}"))
+        }
+    };
+    problem.at(place(path, text, span.start))
+}
+
+/// The place of a part of a text in quotes, the value of a key: of some bytes of it, or of its beginning.
+/// None where there is no such key.
+pub fn place_in_text(
+    (path, text): (&Path, &str),
+    key: &str,
+    bytes: Option<&Range<usize>>,
+) -> Option<String> {
+    let document = DeTable::parse(text).ok()?;
+    let mut table = document.get_ref();
+    let mut names = key.split('.').peekable();
+    let value = loop {
+        let value = table.get(names.next()?)?;
+        match (names.peek(), value.get_ref()) {
+            (None, _) => break value,
+            (Some(_), DeValue::Table(inner)) => table = inner,
+            (Some(_), _) => return None,
+        }
+    };
+    let span = value.span();
+    let within = bytes.and_then(|bytes| {
+        let value = value.get_ref().as_str()?;
+        // Escapes make the value another text than what is written: then its beginning must do.
+        Some(text[span.clone()].find(value)? + bytes.start)
+    });
+    Some(place(path, text, span.start + within.unwrap_or(0)))
 }
 
 /// Whether the value of a key is a table with keys of its own. `*` stands for any name.
-const TABLES: [&str; 20] = [
+const TABLES: [&str; 27] = [
     "network",
     "network.file",
     "network.file.attributes",
@@ -51,6 +129,11 @@ const TABLES: [&str; 20] = [
     "regions",
     "oscillator",
     "oscillator.*",
+    "oscillator.custom.flow",
+    "oscillator.custom.map",
+    "oscillator.custom.where",
+    "oscillator.custom.parameters",
+    "oscillator.custom.start",
     "coupling",
     "spectrum",
     "msf",
@@ -60,6 +143,8 @@ const TABLES: [&str; 20] = [
     "figure",
     "claims",
     "claims.*",
+    "atlas",
+    "atlas.*",
 ];
 
 /// Refuses a list in place of a table: the parser would take its values for those of the keys, in
@@ -97,7 +182,11 @@ fn is_table(name: &str) -> bool {
 /// Longest experiment file, in bytes: some hundred times the longest that anybody wrote.
 const MOST_BYTES: u64 = 16 << 20;
 
-fn read(path: &Path) -> Result<String> {
+/// The text of a file, which must be a regular one.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn text(path: &Path) -> Result<String> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => Problem::new("there is no such file")
             .in_file(path)
@@ -174,43 +263,11 @@ fn explain(message: &str, table: &DeTable<'_>, span: &Range<usize>, text: &str) 
     }
 }
 
-/// How keys are written whose value is a list, or one of several things. `*` stands for any name.
-const SHAPES: [(&str, &str); 20] = [
-    ("prepare", "prepare = [\"drop_self_loops\", { symmetrise = \"max\" }]"),
-    ("network.file.block", "block = [1, 90], its first and its last row, counted from 1"),
-    ("network.file.attributes.position", "position = [\"x\", \"y\"]"),
-    ("network.communities.sizes", "sizes = [30, 30, 40]"),
-    ("network.communities.probability", "probability = [[0.9, 0.1], [0.1, 0.9]]"),
-    ("groups.ranges.*", "left = [1, 30], the first and the last node, counted from 1"),
-    ("spectrum.modes", "modes = \"auto\", \"all\", 20 or { unstable_at = 0.5 }"),
-    ("msf.sigma", "sigma = { from = 0.0, to = 12.0, points = 49 } or [0.0, 0.5, 1.0]"),
-    ("prediction.threshold", "threshold = \"exact\" or 0.05"),
-    ("sweep.epsilon", "epsilon = { from = 0.5, to = 5.0, points = 10 } or [0.5, 1.0, 2.5]"),
-    ("sweep.clusters", "clusters = [[1, 2, 6], [3, 4, 5]], a list of nodes for each cluster"),
-    ("sweep.synchronised_below", "synchronised_below = 1e-3 or { of_largest = 0.1 }"),
-    ("regions.*", "a number such as 0.05, or { of_largest = 0.1 }"),
-    ("figure.eigenvectors", "eigenvectors = [2, 3, 4]"),
-    ("figure.layout", "layout = \"circle\", \"force\", \"grouped\" or [[0.0, 0.0], [1.0, 0.5]]"),
-    ("figure.mark_modes", "mark_modes = [2, 3]"),
-    ("figure.source_transitions", "source_transitions = [0.5, 1.2]"),
-    ("claims.*.where.epsilon", "epsilon = 0.5 or [0.5, 1.0]"),
-    ("claims.*.where.modes", "modes = [2, 3]"),
-    ("claims.*.where.clusters", "clusters = [[1, 2], [3, 4]]"),
-];
-
-/// How the value of a key is written.
-fn shape(key: &str) -> Option<&'static str> {
-    let is_it = |known: &str| {
-        let (known, key) = (known.split('.'), key.split('.'));
-        known.clone().count() == key.clone().count()
-            && known.zip(key).all(|(known, key)| known == "*" || known == key)
-    };
-    SHAPES.into_iter().find(|(known, _)| is_it(known)).map(|(_, shape)| shape)
-}
-
 fn missing(name: &str, table: &DeTable<'_>, span: &Range<usize>) -> Problem {
     match table_at(table, span) {
         Some(table) => Problem::new(format!("`{table}.{name}` is missing")),
+        None if table.contains_key("atlas") => Problem::new(format!("`{name}` is missing"))
+            .hint("every atlas has `title` and for each of its systems a table [atlas.NAME]"),
         None => Problem::new(format!("`{name}` is missing")).hint(
             "every experiment has `title`, [network.…], [oscillator.…], [coupling] and [msf]",
         ),
@@ -266,6 +323,7 @@ fn kind_expected(expected: &str) -> &str {
         "u64" | "usize" => "a whole number, zero or above",
         "u32" => "a whole number from 0 to 4294967295",
         "a sequence" => "a list",
+        "an array of length 2" => "a list of 2",
         "a string" => "a text in quotes",
         "path string" => "a path in quotes",
         "a map" => "a table",

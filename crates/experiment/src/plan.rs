@@ -1,6 +1,8 @@
 //! What will be done: an experiment with its network read, its names resolved and its numbers
 //! checked, so that nothing can go wrong later for a reason that could have been seen now.
 
+mod atlas;
+mod checker;
 mod claimed;
 mod effects;
 mod memory;
@@ -8,41 +10,45 @@ mod network;
 mod node;
 mod numbers;
 mod parameters;
+mod planned;
 mod ranges;
 mod series;
 mod source;
 mod spectrum;
 mod step;
+mod sweep;
+mod tried;
 mod watched;
 
-use eigensync::{ALL_PAIRS, Study, Sweep, Warning};
+use eigensync::numbers::plain;
+use eigensync::{Study, Warning};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use claims::Claim;
 use clustering::ClusterRule;
 use dynamics::lyapunov::Times;
-use dynamics::{
-    Adaptive, AdaptiveOrder, Coupling, Method, Model, NodeDynamics, Observables, Schedule,
-};
+use dynamics::{InstructionSet, NodeDynamics};
 use graph::prepare::Report;
-use graph::{CouplingMatrix, Names, Network, Normalization};
+use graph::{CouplingMatrix, Normalization};
 
+pub use atlas::{AtlasPlan, Pair, System};
+pub use checker::QUICK;
+use checker::{Checker, shortening};
 pub use memory::Memory;
 pub use node::Node;
+pub use parameters::method;
+pub use planned::Planned;
 use serde_json::Value;
 pub use series::Recorded;
 
 use crate::hashes::{links_hash, plan_hash};
-use crate::load;
+use crate::load::{self, AnyDocument, Document};
 use crate::spec::{
-    CouplingSpec, Experiment, FigureKind, FigureSpec, MatrixKind, MethodKind, NetworkSpec,
-    RegionsSpec, StepSpec, SweepSpec, ThresholdSpec,
+    Experiment, FigureKind, FigureSpec, MatrixKind, NetworkSpec, RegionsSpec, StepSpec,
+    ThresholdSpec,
 };
 use user::{Problem, Result, Stages};
-
-/// `--quick` divides the times of sweeps and of the MSF by this.
-pub const QUICK: f64 = 10.0;
 
 /// An experiment that can be run.
 pub struct Plan {
@@ -69,8 +75,8 @@ pub struct Plan {
     pub links_hash: String,
     /// Each step of preparation, and what it did.
     pub preparation: Vec<(StepSpec, Report)>,
-    /// The coupling in the words of the file.
-    pub coupling: CouplingSpec,
+    /// Which coupling matrix.
+    pub matrix: MatrixKind,
     /// What the node of the study is known by.
     pub node: Node,
     /// What the figure shows; modes, positions and couplings in it are there.
@@ -95,24 +101,31 @@ pub struct Text<'a> {
     pub network: Option<Arc<[u8]>>,
 }
 
-/// Checks an experiment file and reads what it names.
+/// Checks a file and reads what it names.
 ///
 /// # Errors
 /// What is wrong with the file, or with what it names.
-pub fn plan(file: &Path, id: &str, quick: bool, stages: &Stages) -> Result<Plan> {
-    of(load::experiment(file)?, (file, id), quick, stages)
+pub fn plan(file: &Path, id: &str, quick: bool, stages: &Stages) -> Result<Planned> {
+    match load::document(file)? {
+        AnyDocument::Experiment(document) => {
+            of(*document, (file, id), quick, stages).map(Box::new).map(Planned::Experiment)
+        }
+        AnyDocument::Atlas(document) => {
+            atlas::of(*document, (file, id), quick, stages).map(Box::new).map(Planned::Atlas)
+        }
+    }
 }
 
-/// The same of a text.
+/// The plan of an experiment that is given as a text.
 ///
 /// # Errors
 /// As [`plan`].
 pub fn plan_of(text: &Text<'_>, quick: bool, stages: &Stages) -> Result<Plan> {
-    let (mut experiment, written) = load::parse(text.text, text.file)?;
-    if let NetworkSpec::File(spec) = &mut experiment.network {
+    let mut document: Document = load::parse(text.text, text.file)?;
+    if let NetworkSpec::File(spec) = &mut document.experiment.network {
         spec.given.clone_from(&text.network);
     }
-    of((experiment, written), (text.file, text.id), quick, stages)
+    of(document, (text.file, text.id), quick, stages)
 }
 
 /// The hash of the plan that [`plan`] would make, for which the network is all that must be read.
@@ -120,22 +133,46 @@ pub fn plan_of(text: &Text<'_>, quick: bool, stages: &Stages) -> Result<Plan> {
 /// # Errors
 /// What is wrong with the file, or with its network.
 pub fn plan_hash_of(file: &Path, quick: bool) -> Result<String> {
-    let (experiment, written) = load::experiment(file)?;
     let (shortened, stages) = (shortening(quick), Stages::new("", Arc::new(())));
-    let checker =
-        Checker { file, experiment: &experiment, written: &written, shortened, stages: &stages };
+    let document = match load::document(file)? {
+        AnyDocument::Experiment(document) => document,
+        AnyDocument::Atlas(document) => return Ok(plan_hash(&document.written, shortened, "")),
+    };
+    let checker = Checker::of(&document, file, shortened, &stages);
     let (network, _) = checker.network()?;
-    Ok(plan_hash(&written, shortened, &links_hash(&network)))
+    Ok(plan_hash(&document.written, shortened, &links_hash(&network)))
 }
 
-fn of(
-    (experiment, written): (Experiment, Value),
-    (file, id): (&Path, &str),
-    quick: bool,
-    stages: &Stages,
-) -> Result<Plan> {
+/// The node that a document without a network says, its tables `oscillator` and `coupling`.
+///
+/// - `origin`: the file in which mistakes have a place, and its text.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn node_of(document: &toml::Table, (file, text): (&Path, &str)) -> Result<Node> {
+    let mut whole = toml::toml! {
+        title = "a node without a network"
+        network.communities = { sizes = [2], p_within = 1.0, p_between = 0.0 }
+        coupling.matrix = "laplacian"
+        msf.sigma = [0.0, 1.0]
+    };
+    for (key, value) in document {
+        match (whole.get_mut(key).and_then(toml::Value::as_table_mut), value) {
+            (Some(there), toml::Value::Table(more)) => there.extend(more.clone()),
+            _ => drop(whole.insert(key.clone(), value.clone())),
+        }
+    }
+    let asked = toml::to_string(&whole)
+        .map_err(|error| Problem::from_error("cannot be written as TOML", error).in_file(file))?;
+    let document = Document { text: text.to_owned(), ..load::parse(&asked, file)? };
+    let stages = Stages::new("", Arc::new(()));
+    Ok(Checker::of(&document, file, 1.0, &stages).node()?.0)
+}
+
+fn of(document: Document, (file, id): (&Path, &str), quick: bool, stages: &Stages) -> Result<Plan> {
     let shortened = shortening(quick);
-    let checker = Checker { file, experiment: &experiment, written: &written, shortened, stages };
+    let checker = Checker::of(&document, file, shortened, stages);
+    let experiment = checker.experiment;
     checker.effects()?;
     let (network, preparation) = checker.network()?;
     let (n_components, matrix, links_hash) = stages.unmeasured("preparation", || {
@@ -143,30 +180,36 @@ fn of(
         let matrix = CouplingMatrix::new(&network, checker.normalization());
         (n_components, matrix, links_hash(&network))
     });
-    let node = checker.node()?;
+    let (node, unused) = checker.node()?;
+    let dynamics = node.dynamics();
     let sweep = experiment.sweep.as_ref();
     let study = Study {
         modes: checker.spectrum(network.n_nodes(), n_components)?,
-        msf: checker.msf()?,
+        msf: checker.msf(dynamics)?,
         rule: checker.rule(network.n_nodes())?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, node.model)).transpose()?,
+        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, dynamics)).transpose()?,
         regions: experiment.regions.as_ref().map(RegionsSpec::bounds),
         seed: experiment.seed,
-        node: node.equations(),
+        node: node.equations.clone(),
         network,
         n_components,
         matrix,
     };
-    let doubts = checker.steps(&study, &node)?;
+    let doubt = |key| Warning { about: "oscillator", message: format!("nothing uses `{key}`") };
+    let mut doubts: Vec<Warning> = unused.into_iter().map(doubt).collect();
+    let jumps = checker.tried(&node, study.msf.times.step)?;
+    doubts.extend(jumps.map(|message| Warning { about: "msf", message }));
+    doubts.extend(checker.steps(&study)?);
     checker.regions(&study.network)?;
     checker.figure(&study.network, &study.modes)?;
     let claims = checker.claims(&study)?;
     let recorded = match &study.sweep {
-        Some(sweep) => checker.recorded(sweep, &study.network, node.model)?,
+        Some(sweep) => checker.recorded(sweep, &study.network, dynamics)?,
         None => None,
     };
     Memory::of_study(&study, experiment.figure.kind).affordable(file)?;
-    let parameters = parameters::of(&experiment, &study, &node);
+    let parameters = parameters::of(experiment, &study);
+    let Document { experiment, written, .. } = document;
     let Experiment { title, source, coupling, prepare, figure, .. } = experiment;
     Ok(Plan {
         id: id.to_owned(),
@@ -180,7 +223,7 @@ fn of(
         study,
         links_hash,
         preparation: prepare.into_iter().zip(preparation).collect(),
-        coupling,
+        matrix: coupling.matrix,
         node,
         figure,
         claims,
@@ -189,24 +232,7 @@ fn of(
     })
 }
 
-fn shortening(quick: bool) -> f64 {
-    if quick { QUICK } else { 1.0 }
-}
-
-struct Checker<'a> {
-    file: &'a Path,
-    experiment: &'a Experiment,
-    /// The same as a document, defaults left out.
-    written: &'a Value,
-    shortened: f64,
-    stages: &'a Stages,
-}
-
 impl Checker<'_> {
-    fn problem(&self, key: &str, message: impl std::fmt::Display) -> Problem {
-        Problem::with_key(self.file, key, message)
-    }
-
     fn normalization(&self) -> Normalization {
         match self.experiment.coupling.matrix {
             MatrixKind::Laplacian => Normalization::Laplacian,
@@ -214,65 +240,31 @@ impl Checker<'_> {
         }
     }
 
-    fn node(&self) -> Result<Node> {
-        let (model, spec) = (self.experiment.oscillator, &self.experiment.coupling);
-        self.parameters(model)?;
-        let from = self.component("coupling.from", &spec.from, model)?;
-        let to = self.component("coupling.to", &spec.to, model)?;
-        Ok(Node { model, coupling: Coupling::pair(from, to) })
-    }
-
-    fn parameters(&self, model: Model) -> Result<()> {
-        let parameters = serde_json::to_value(model).unwrap_or_default();
-        let parameters = parameters[model.name()].as_object().into_iter().flatten();
-        parameters.into_iter().try_for_each(|(name, value)| {
-            let key = format!("oscillator.{}.{name}", model.name());
-            match value.as_f64() {
-                Some(value) => self.parameter_range(&key, value),
-                // JSON has no word for what is not finite, so that it comes out as null.
-                None => Err(self.problem(&key, "must be finite")),
-            }
-        })
-    }
-
-    fn component(&self, key: &str, name: &str, model: Model) -> Result<usize> {
-        let components = model.components();
-        components.iter().position(|component| *component == name).ok_or_else(|| {
-            let message = format!(
-                "is \"{name}\", but `{}` has components {}",
-                model.name(),
-                components.join(", ")
-            );
-            let others: Vec<_> = Model::all()
-                .iter()
-                .filter(|other| other.components().contains(&name))
-                .map(|other| format!("`{}` has a component `{name}`", other.name()))
-                .collect();
-            let problem = self.problem(key, message);
-            if others.is_empty() { problem } else { problem.hint(others.join("; ")) }
-        })
-    }
-
-    fn msf(&self) -> Result<msf::Request> {
+    fn msf(&self, dynamics: &dyn NodeDynamics) -> Result<msf::Request> {
         let spec = &self.experiment.msf;
+        let step = self.step("msf.step", spec.step, dynamics)?;
+        let renormalise = spec.renormalise.unwrap_or(if dynamics.is_map() { 1.0 } else { 0.5 });
         let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
         self.not_negative("msf.sigma", sigma[0])?;
-        self.positive("msf.step", spec.step)?;
         self.not_negative("msf.transient", spec.transient)?;
         self.positive("msf.average", spec.average)?;
-        self.positive("msf.renormalise", spec.renormalise)?;
+        self.positive("msf.renormalise", renormalise)?;
+        if dynamics.is_map() && renormalise.fract() != 0.0 {
+            let message = format!("is {}, but a map goes in steps of 1", plain(renormalise));
+            return Err(self.problem("msf.renormalise", message).hint("take a whole number"));
+        }
         self.positive("msf.relative_error", spec.relative_error)?;
-        let interval = (spec.renormalise / spec.step).round().max(1.0) * spec.step;
+        let interval = (renormalise / step).round().max(1.0) * step;
         self.blocks("msf.average", spec.average, (interval, "`msf.renormalise` in whole steps"))?;
         let times = Times {
-            step: spec.step,
+            step,
             transient: spec.transient / self.shortened,
             average: spec.average / self.shortened,
-            renormalise: spec.renormalise,
+            renormalise,
         };
         let exponents = sigma.len() as f64;
         self.feasible("msf", exponents * (times.transient + times.average) / times.step)?;
-        self.msf_ranges()?;
+        self.msf_ranges(step, renormalise)?;
         Ok(msf::Request {
             sigma,
             times,
@@ -282,7 +274,7 @@ impl Checker<'_> {
                 ..msf::Refinement::default()
             },
             seed: self.experiment.seed,
-            instruction_set: dynamics::InstructionSet::best(),
+            instruction_set: InstructionSet::best(),
         })
     }
 
@@ -294,83 +286,6 @@ impl Checker<'_> {
                 self.threshold_range(threshold, n_nodes)?;
                 Ok(ClusterRule::Threshold(threshold))
             }
-        }
-    }
-
-    fn sweep(&self, spec: &SweepSpec, network: &Network, model: Model) -> Result<Sweep> {
-        let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
-        let schedule = self.schedule(spec, epsilon[0])?;
-        let pairs = network.n_nodes() <= ALL_PAIRS;
-        self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
-        let component = match &spec.component {
-            Some(name) => self.component("sweep.component", name, model)?,
-            None => 0,
-        };
-        let names = Names::of(network);
-        let reference = match &spec.error_to {
-            Some(name) => {
-                let named = names.node(name.as_ref());
-                Some(named.map_err(|error| self.misnamed("sweep.error_to", &error))?)
-            }
-            None => None,
-        };
-        let mut clusters = names
-            .clusters(&spec.clusters)
-            .map_err(|error| self.misnamed("sweep.clusters", &error))?;
-        if clusters.is_empty() && reference.is_none() && network.n_nodes() > 1 {
-            clusters.push((0..network.n_nodes()).collect());
-        }
-        self.bound("sweep.synchronised_below", spec.synchronised_below, pairs)?;
-        self.sweep_ranges(spec)?;
-        let first = self.experiment.seed;
-        Ok(Sweep {
-            epsilon,
-            seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
-            method: self.method(spec),
-            schedule,
-            observables: Observables { component, pairs, reference, clusters },
-            series: spec
-                .series
-                .as_ref()
-                .map(|series| self.series(series, network, model))
-                .transpose()?,
-            synchronised_below: spec.synchronised_below,
-            kick: spec.kick,
-        })
-    }
-
-    fn schedule(&self, spec: &SweepSpec, least_epsilon: f64) -> Result<Schedule> {
-        self.not_negative("sweep.epsilon", least_epsilon)?;
-        self.positive("sweep.step", spec.step)?;
-        self.not_negative("sweep.kick", spec.kick)?;
-        self.not_negative("sweep.transient", spec.transient)?;
-        self.positive("sweep.average", spec.average)?;
-        self.positive("sweep.tolerance", spec.tolerance)?;
-        self.positive("sweep.stride", f64::from(spec.stride))?;
-        self.positive("sweep.seeds", spec.seeds as f64)?;
-        let schedule = Schedule {
-            step: spec.step,
-            transient: spec.transient / self.shortened,
-            average: spec.average / self.shortened,
-            stride: spec.stride,
-        };
-        let interval = (schedule.sampling_interval(), "`sweep.step` × `sweep.stride`");
-        self.blocks("sweep.average", spec.average, interval)?;
-        Ok(schedule)
-    }
-
-    fn method(&self, spec: &SweepSpec) -> Method {
-        let adaptive = |order| {
-            Method::Adaptive(Adaptive {
-                order,
-                relative_tolerance: spec.tolerance,
-                absolute_tolerance: spec.tolerance,
-            })
-        };
-        match spec.method {
-            MethodKind::Rk4 => Method::Rk4,
-            MethodKind::Dopri5 => adaptive(AdaptiveOrder::Five),
-            MethodKind::Dop853 => adaptive(AdaptiveOrder::Eight),
         }
     }
 }

@@ -3,14 +3,19 @@
 //!
 //! All times are in model time units, all coupling strengths in units of the coupling matrix.
 
+mod atlas;
+mod coupling;
+mod defaults;
 mod format;
 mod named;
 mod network;
+mod oscillator;
 mod solver;
 mod values;
 
+pub use atlas::{Atlas, AtlasMsfSpec, PublishedSpec, SystemSpec};
 use claims::{ClaimSpec, Name};
-use dynamics::Model;
+pub use coupling::{CouplingSpec, FunctionSpec, MatrixKind};
 use eigensync::{Bound, Wanted};
 pub use format::Format;
 use indexmap::IndexMap;
@@ -18,6 +23,7 @@ pub use network::{
     AttributesSpec, CommunitiesSpec, FileSpec, GroupsSpec, HierarchicalSpec, NetworkSpec,
     RegionsSpec, RowsSpec, StepSpec, SymmetriseSpec,
 };
+pub use oscillator::{CUSTOM, OscillatorSpec};
 use serde::{Deserialize, Serialize};
 pub use solver::SolverSpec;
 pub use values::{EvenGrid, Grid, Layout, ThresholdSpec};
@@ -33,7 +39,7 @@ pub struct Experiment {
     #[serde(default, skip_serializing)]
     pub source: String,
     /// Seed of everything random. Replicas of a sweep use this seed and those that follow.
-    #[serde(default = "one")]
+    #[serde(default = "defaults::one")]
     pub seed: u64,
     /// Where the network comes from.
     pub network: NetworkSpec,
@@ -44,8 +50,12 @@ pub struct Experiment {
     pub groups: Option<GroupsSpec>,
     /// Thresholds of the analysis of regions.
     pub regions: Option<RegionsSpec>,
-    /// `[oscillator.NAME]` with its parameters; those left out have the defaults of the literature.
-    pub oscillator: Model,
+    /// `[oscillator.NAME]` with its parameters; those left out have the defaults of the literature. Or
+    /// `[oscillator.custom]` with equations of one's own.
+    pub oscillator: OscillatorSpec,
+    /// An orbit has escaped when a component exceeds this size.
+    #[serde(default = "defaults::escape_radius")]
+    pub escape_radius: f64,
     /// The coupling matrix and the coupling function.
     pub coupling: CouplingSpec,
     /// Which modes, by which solver.
@@ -66,29 +76,6 @@ pub struct Experiment {
     pub claims: IndexMap<String, ClaimSpec>,
 }
 
-/// `[coupling]`: the coupling matrix W and the coupling function H.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct CouplingSpec {
-    /// Which coupling matrix.
-    pub matrix: MatrixKind,
-    /// Component read from the driving node.
-    pub from: String,
-    /// Component whose equation it enters.
-    pub to: String,
-}
-
-/// How weights become couplings.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
-pub enum MatrixKind {
-    /// w_ij = a_ij.
-    Laplacian,
-    /// w_ij = a_ij / k_i.
-    Normalized,
-}
-
 /// `[spectrum]`: which modes, by which solver.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
@@ -107,20 +94,18 @@ pub struct SpectrumSpec {
 pub struct MsfSpec {
     /// Values of the generic coupling strength σ, from zero or above.
     pub sigma: Grid,
-    /// Step of the integrator.
-    #[serde(default = "step")]
-    pub step: f64,
+    /// Step of the integrator, 0.01 where it is left out; of a map 1.
+    pub step: Option<f64>,
     /// Time before the averages begin.
-    #[serde(default = "thousand")]
+    #[serde(default = "defaults::thousand")]
     pub transient: f64,
     /// Time of the average behind each point of the curve.
-    #[serde(default = "hundred_thousand")]
+    #[serde(default = "defaults::hundred_thousand")]
     pub average: f64,
-    /// Interval between renormalisations of the tangent vectors.
-    #[serde(default = "half")]
-    pub renormalise: f64,
+    /// Interval between renormalisations of the tangent vectors, 0.5 where it is left out; of a map 1.
+    pub renormalise: Option<f64>,
     /// Standard error at which a zero of Λ is known well enough, relative to it.
-    #[serde(default = "per_mille")]
+    #[serde(default = "defaults::per_mille")]
     pub relative_error: f64,
 }
 
@@ -139,27 +124,24 @@ pub struct SweepSpec {
     /// Coupling strengths.
     pub epsilon: Grid,
     /// Replicas at every ε, from different initial states.
-    #[serde(default = "four")]
+    #[serde(default = "defaults::four")]
     pub seeds: u64,
-    /// The integrator.
-    #[serde(default)]
-    pub method: MethodKind,
-    /// Step of the integrator.
-    #[serde(default = "step")]
-    pub step: f64,
+    /// The integrator: `rk4` where it is left out; a map is iterated.
+    pub method: Option<MethodKind>,
+    /// Step of the integrator, 0.01 where it is left out; of a map 1.
+    pub step: Option<f64>,
     /// Time before the averages begin.
     pub transient: f64,
     /// Time of the averages behind every error.
     pub average: f64,
-    /// Steps from one sample of the errors to the next.
-    #[serde(default = "ten")]
-    pub stride: u32,
+    /// Steps from one sample of the errors to the next, 10 where it is left out; of a map 1.
+    pub stride: Option<u32>,
     /// Relative and absolute tolerance of the adaptive methods.
-    #[serde(default = "billionth")]
+    #[serde(default = "defaults::billionth")]
     pub tolerance: f64,
     /// Relative size of the random kicks, one every unit of time, that keep nodes from becoming equal
     /// to the last bit and then staying so for ever; 0 for none.
-    #[serde(default = "rounding_kick")]
+    #[serde(default = "defaults::rounding_kick")]
     pub kick: f64,
     /// Component whose differences are the errors; the first one by default.
     pub component: Option<String>,
@@ -185,7 +167,7 @@ pub struct SeriesSpec {
     /// Components; all of them by default.
     pub components: Option<Vec<String>>,
     /// Samples from one state to the next.
-    #[serde(default = "one")]
+    #[serde(default = "defaults::one")]
     pub every: u64,
     /// Time of the first state, 0 for the initial one; by default the end of the transient.
     pub from: Option<f64>,
@@ -194,17 +176,18 @@ pub struct SeriesSpec {
     /// Points of the sweep; all of them by default.
     pub epsilon: Option<Vec<f64>>,
     /// Of how many seeds at each.
-    #[serde(default = "one")]
+    #[serde(default = "defaults::one")]
     pub seeds: u64,
 }
 
 /// Integrators.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MethodKind {
     /// Classical fourth-order Runge–Kutta with a fixed step.
-    #[default]
     Rk4,
+    /// State by state: maps, and nothing else.
+    Iterate,
     /// Adaptive Dormand–Prince 5(4).
     Dopri5,
     /// Adaptive Dormand–Prince 8(5,3).
@@ -288,44 +271,4 @@ pub enum SpreadKind {
     Band,
     /// A bar at every point.
     Bars,
-}
-
-fn one() -> u64 {
-    1
-}
-
-fn four() -> u64 {
-    4
-}
-
-fn ten() -> u32 {
-    10
-}
-
-fn step() -> f64 {
-    0.01
-}
-
-fn half() -> f64 {
-    0.5
-}
-
-fn per_mille() -> f64 {
-    1e-3
-}
-
-fn billionth() -> f64 {
-    1e-9
-}
-
-fn rounding_kick() -> f64 {
-    dynamics::ROUNDING_KICK
-}
-
-fn thousand() -> f64 {
-    1e3
-}
-
-fn hundred_thousand() -> f64 {
-    1e5
 }

@@ -34,6 +34,8 @@ contents! {
     Positions(crate::positions::PositionsPanel),
     /// Clusters of every state as ε falls.
     Cascade(crate::cascade::CascadePanel),
+    /// Many small curves side by side.
+    Multiples(crate::multiples::MultiplesPanel),
 }
 
 impl Drawable for Content {

@@ -2,7 +2,7 @@
 //!
 //! Nothing here opens a file or knows what the data mean. One file a kind of panel: `lines`
 //! (with `series`, `axis`, `markers` and `legend`; `msf` and `components` fill it), `network` (with
-//! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`, `cascade`; a new kind is
+//! `links`, `placement` and `stress`), `heat_map` (with `colour_map`), `positions`, `cascade`, `multiples`; a new kind is
 //! one more file, a `Drawable`, and its line in `content`. They draw through `canvas`, which writes SVG in points,
 //! with text as text in a list of faces of equal widths (`font`); `raster` makes the PNG of it, `pdf` the PDF.
 //! `layouts` sets panels side by side as the paper's figures do.
@@ -28,6 +28,7 @@ mod lines;
 mod links;
 mod markers;
 mod msf;
+mod multiples;
 mod network;
 mod numbers;
 mod pdf;
@@ -55,6 +56,7 @@ pub use lines::{LinePanel, Shade, Tone};
 pub use links::Link;
 pub use markers::{Marker, MarkerGroup, MarkerStyle};
 pub use msf::{MsfCurve, msf_panel};
+pub use multiples::{Multiple, MultiplesPanel};
 pub use network::{NetworkPanel, Node};
 pub use numbers::{grouped, told_apart};
 pub use pdf::pdf;

@@ -53,11 +53,10 @@ impl Both<'_> {
         (shortening(self.obtained) / shortening(self.expected)).sqrt().max(1.0)
     }
 
-    /// The largest joint standard error of one key in a list of objects.
-    pub fn largest_joint_error(&self, list: &str) -> f64 {
-        let entries = |side: &Value| side.pointer(list).and_then(Value::as_array).cloned();
-        let (a, b) = (entries(self.expected), entries(self.obtained));
-        let pairs = a.unwrap_or_default().into_iter().zip(b.unwrap_or_default());
+    /// The largest joint standard error of the entries of a list on both sides.
+    fn largest_joint_error(&self, lists: [Option<&Value>; 2]) -> f64 {
+        let [a, b] = lists.map(|list| list.and_then(Value::as_array));
+        let pairs = a.into_iter().flatten().zip(b.into_iter().flatten());
         pairs
             .filter_map(|(a, b)| {
                 Some(self.joint_error([a.as_object()?, b.as_object()?], "standard_error"))
@@ -65,12 +64,15 @@ impl Both<'_> {
             .fold(0.0, f64::max)
     }
 
-    pub fn largest_zero_error(&self) -> f64 {
-        self.largest_joint_error("/msf/zeros")
+    /// Of the zeros of one curve, which stand beside its stable set.
+    pub fn largest_zero_error(&self, curves: Siblings) -> f64 {
+        self.largest_joint_error(curves.map(|curve| curve.get("zeros")))
     }
 
     pub fn largest_coupling_error(&self) -> f64 {
-        self.largest_joint_error("/critical_couplings")
+        self.largest_joint_error(
+            [self.expected, self.obtained].map(|side| side.get("critical_couplings")),
+        )
     }
 
     pub fn largest_eigenvalue(&self) -> f64 {

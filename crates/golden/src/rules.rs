@@ -19,6 +19,9 @@ const ROUNDING: f64 = 1e-9;
 const CORRELATION: [f64; 2] = [0.02, 0.02];
 const RAND_INDEX: [f64; 2] = [0.05, 0.2];
 
+/// What the kinds of an atlas begin with; its curves are judged as those of experiments.
+pub const ATLAS: &str = "atlas[].";
+
 /// How a quantity is judged.
 pub enum Rule {
     Exact,
@@ -37,6 +40,7 @@ impl Both<'_> {
         [expected, obtained]: Pair,
         siblings: Siblings,
     ) -> Option<String> {
+        let kind = kind.strip_prefix(ATLAS).unwrap_or(kind);
         let key = error_key(kind)?;
         let is_unrefined =
             |side: &Map<String, Value>| side.get("refined") == Some(&Value::Bool(false));
@@ -61,6 +65,7 @@ impl Both<'_> {
 
     /// The rule for a kind of quantity, with bands from the standard errors beside it.
     pub fn rule(&self, kind: &str, siblings: Siblings) -> Rule {
+        let kind = kind.strip_prefix(ATLAS).unwrap_or(kind);
         let band = |error: &str| Rule::Band(BANDS * self.joint_error(siblings, error));
         let of_seeds = |error: &str, [least, most]: [f64; 2]| {
             let error = self.seeds_error(siblings, error, most);
@@ -73,7 +78,7 @@ impl Both<'_> {
             "msf.sigma_c" | "msf.zeros[].sigma" | "critical_couplings[].epsilon" => {
                 band("standard_error")
             }
-            "msf.stable[][]" => Rule::Band(BANDS * self.largest_zero_error()),
+            "msf.stable[][]" => Rule::Band(BANDS * self.largest_zero_error(siblings)),
             "cascade[].epsilon[]" => Rule::Band(BANDS * self.largest_coupling_error()),
             _ if is_onset(kind) => {
                 let step = self.widest_step();
@@ -107,7 +112,13 @@ impl Both<'_> {
             // What the ends of the stable set are; their numbers are judged under `stable`.
             _ if kind.starts_with("msf.stable_ends") || kind.ends_with(".refined") => Rule::Note,
             _ if kind.starts_with("msf.attractors") || kind == "msf.isolated_state" => Rule::Note,
-            _ if kind.starts_with("msf.rests") || kind.contains("step_shift") => Rule::Note,
+            _ if kind.starts_with("msf.rests")
+                || kind == "msf.looked_between"
+                || kind.starts_with("msf.doubtful")
+                || kind.contains("step_shift") =>
+            {
+                Rule::Note
+            }
             _ if kind.starts_with("msf.looked") || kind.starts_with("global_synchrony") => {
                 Rule::Note
             }

@@ -188,3 +188,25 @@ fn a_new_key_is_mentioned_and_a_new_parameter_is_a_failure() {
     assert_eq!(comparison.lines(), ["simulations[0].n_seeds is new: not judged"]);
     assert!(!after(|s| s["experiment"]["sweep"]["kick"] = json!(0.0)).holds());
 }
+
+fn atlas(shortened: f64, class: &str, zero: f64) -> Value {
+    let zeros = json!([{ "sigma": zero, "standard_error": 0.01 }]);
+    let msf = json!({ "zeros": zeros, "stable": [[zero, null]], "doubtful": [] });
+    json!({ "shortened": shortened, "atlas": [{ "class": class, "msf": msf }] })
+}
+
+#[test]
+fn a_pair_of_an_atlas_is_judged_by_the_errors_of_its_own_zeros() {
+    let golden = atlas(1.0, "Γ1", 2.0);
+    assert!(compare_summaries(&golden, &atlas(1.0, "Γ1", 2.06)).holds());
+    let moved = compare_summaries(&golden, &atlas(1.0, "Γ1", 2.08));
+    assert_eq!(moved.failures().len(), 2, "the zero, and the window it bounds");
+}
+
+#[test]
+fn a_class_that_a_quick_run_does_not_see_is_left_to_a_full_one() {
+    let golden = atlas(1.0, "Γ1", 2.0);
+    assert!(!compare_summaries(&golden, &atlas(1.0, "Γ0", 2.0)).holds());
+    let quick = compare_summaries(&golden, &atlas(10.0, "Γ0", 2.0));
+    assert!(quick.holds() && quick.open().len() == 1);
+}

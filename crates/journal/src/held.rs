@@ -9,6 +9,8 @@ use crate::Kind;
 pub struct Held {
     /// The curve Λ(σ).
     pub curve: bool,
+    /// How many of these: an atlas has one for each pair.
+    pub curves: usize,
     /// The spectrum.
     pub spectrum: bool,
     /// Replicas.
@@ -21,7 +23,10 @@ impl Held {
     /// Counts one piece more.
     pub fn count(&mut self, kind: Kind) {
         match kind {
-            Kind::Curve => self.curve = true,
+            Kind::Curve => {
+                self.curve = true;
+                self.curves += 1;
+            }
             Kind::Spectrum => self.spectrum = true,
             Kind::Replica => self.replicas += 1,
             Kind::Begun | Kind::Look | Kind::Snapshot | Kind::StepEffects | Kind::States => {}
@@ -38,7 +43,11 @@ impl Held {
             let others = if self.replicas > 0 { "others" } else { "replicas" };
             parts.push(format!("the states of {} {others}", self.states));
         }
-        parts.extend(self.curve.then(|| "the curve".to_owned()));
+        parts.extend(match self.curves {
+            0 => None,
+            1 => Some("the curve".to_owned()),
+            curves => Some(format!("{curves} curves")),
+        });
         parts.extend(self.spectrum.then(|| "the spectrum".to_owned()));
         match &parts[..] {
             [] => String::new(),
@@ -55,11 +64,13 @@ mod tests {
 
     #[test]
     fn what_is_held_is_said_in_words() {
-        let held =
-            |replicas, curve, spectrum| Held { curve, spectrum, replicas, states: 0 }.words(80);
+        let held = |replicas, curve, spectrum| {
+            Held { curve, curves: curve.into(), spectrum, replicas, states: 0 }.words(80)
+        };
         assert_eq!(held(0, false, false), "");
         assert_eq!(held(37, false, false), "37 of 80 replicas");
         assert_eq!(held(0, true, true), "the curve and the spectrum");
+        assert_eq!(Held { curve: true, curves: 5, ..Held::default() }.words(0), "5 curves");
         assert_eq!(held(37, true, true), "37 of 80 replicas, the curve and the spectrum");
         let running = Held { replicas: 3, states: 16, ..Held::default() };
         assert_eq!(running.words(80), "3 of 80 replicas and the states of 16 others");

@@ -347,7 +347,7 @@ mod tests {
         let journal = open(false);
         let taken: [f64; 6] = journal.take(Kind::Curve, &key).unwrap();
         assert_eq!(bits(&taken), bits(&numbers));
-        assert_eq!(journal.taken(), Held { curve: true, ..Held::default() });
+        assert_eq!(journal.taken(), Held { curve: true, curves: 1, ..Held::default() });
         assert_eq!(journal.take::<[f64; 6]>(Kind::Replica, &key), None, "it is of another kind");
         let fresh = open(true);
         assert_eq!(fresh.take::<[f64; 6]>(Kind::Curve, &key), None);

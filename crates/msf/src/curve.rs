@@ -6,6 +6,7 @@ use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
 use dynamics::{Coupling, Estimate, InstructionSet, NodeDynamics, Progress};
 
 use crate::attractors::{self, Attractor, Column};
+use crate::between;
 use crate::isolated::Isolated;
 use crate::refinement::{Advance, Refinement};
 use crate::step::{Step, is_certain, with_shift};
@@ -14,7 +15,7 @@ use crate::zeros::{Finder, Signed, sign};
 use crate::{End, Interval, MsfError, StableRegion, origin, rest};
 
 /// The isolated exponent Λ(0) is averaged over this many orbits from different initial states.
-const ISOLATED_ORBITS: usize = 16;
+pub const ISOLATED_ORBITS: usize = 16;
 /// So many of them are run at half the step as well.
 const HALVED_ORBITS: usize = 8;
 
@@ -55,6 +56,12 @@ impl Request {
         let halved = |first: f64| (1..=HALVINGS).rev().map(move |k| first * 0.5f64.powi(k));
         first.into_iter().flat_map(halved).chain(self.sigma.iter().copied()).collect()
     }
+
+    /// Steps of tangent vectors, about: those of the curve and of two zeros, besides those with half the
+    /// step.
+    pub fn steps(&self) -> u64 {
+        (self.looked_at().len() as u64 + 16 + 64 + 2 * (8 + 16)) * self.times.steps()
+    }
 }
 
 /// The master stability function as computed.
@@ -67,13 +74,18 @@ pub struct MasterStability {
     /// Λ(0): the largest Lyapunov exponent of the isolated oscillator. What half the step changes is
     /// in its standard error where that is more than chance.
     pub isolated: Estimate,
-    /// By how much half the step of the integrator changes Λ(0), with the standard error of that.
+    /// By how much half the step of the integrator changes Λ(0), with the standard error of that; 0 for
+    /// a map, which has no step.
     pub isolated_step_shift: Estimate,
     /// What Λ(0) says.
     pub state: Isolated,
     /// How many isolated oscillators, of those tried, end in each of the states in which they come to
     /// rest, the most frequent first; none where Λ(0) is not below 0.
     pub rests: Vec<usize>,
+    /// How many σ were looked at between these, where a window might have been missed.
+    pub between: usize,
+    /// Gaps between neighbouring σ in which Λ comes so near zero that a window may still be hidden.
+    pub doubtful: Vec<[f64; 2]>,
     /// The stable set {Λ < 0} as far as was looked; of several attractors, what is stable on each.
     pub stable: StableRegion,
     /// Each of them, the one of most orbits first, where orbits settle on several attractors; the
@@ -175,8 +187,13 @@ impl Work<'_> {
         let isolated = self.exponents(&orbits, Step::Asked)?;
         let split = attractors::split(&[Column { sigma: 0.0, exponents: &isolated }], floor);
         let isolated = estimate_of(&isolated);
-        let halved = &orbits[..orbits.len().min(HALVED_ORBITS)];
-        let isolated_step_shift = difference(&self.exponents(halved, Step::Halved)?, isolated);
+        let has_step = !self.node.dynamics.is_map();
+        let isolated_step_shift = if has_step {
+            let halved = &orbits[..orbits.len().min(HALVED_ORBITS)];
+            difference(&self.exponents(halved, Step::Halved)?, isolated)
+        } else {
+            Estimate::default()
+        };
         let isolated = Estimate {
             standard_error: with_shift(isolated.standard_error, isolated_step_shift),
             ..isolated
@@ -197,10 +214,18 @@ impl Work<'_> {
             self.exponents(&tangents, step)
         };
         let (refinement, advance) = (&self.request.refinement, self.advance);
-        let mut finder = Finder { refinement, advance, floor, measure, split };
+        let mut finder = Finder { refinement, advance, floor, measure, split, has_step };
         let positive: Vec<(f64, Estimate)> =
             sigma.iter().copied().zip(lambda.iter().copied()).filter(|p| p.0 > 0.0).collect();
-        let certain = finder.settle(&positive)?;
+        let mut certain = finder.settle(&positive)?;
+        let curve = [&[(0.0, isolated)], &positive[..]].concat();
+        let on_orbit = |sigmas: &[f64]| {
+            let tangents: Vec<_> = sigmas.iter().map(|&sigma| Tangent { sigma, seed }).collect();
+            self.exponents(&tangents, Step::Asked)
+        };
+        let between = between::look((&curve, &certain), floor, on_orbit)?;
+        certain.extend(between.signs);
+        certain.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
         let (certain, from) = origin::with(state, certain, &mut finder)?;
         let found = finder.zeros(&certain)?;
         let stable = region(&certain, &found.zeros, from);
@@ -212,6 +237,8 @@ impl Work<'_> {
             isolated_step_shift,
             state,
             rests,
+            between: between.n_points,
+            doubtful: between.doubtful,
             stable,
             attractors,
         };

@@ -8,6 +8,8 @@
 //! Source: L. M. Pecora & T. L. Carroll, PRL 80, 2109 (1998).
 
 mod attractors;
+mod between;
+mod class;
 mod curve;
 mod error;
 mod fit;
@@ -24,7 +26,10 @@ mod zero;
 mod zeros;
 
 pub use attractors::Attractor;
-pub use curve::{MasterStability, Node, Request, master_stability, master_stability_with};
+pub use class::Class;
+pub use curve::{
+    ISOLATED_ORBITS, MasterStability, Node, Request, master_stability, master_stability_with,
+};
 pub use error::MsfError;
 pub use isolated::Isolated;
 pub use reach::reach;

@@ -88,8 +88,14 @@ mod tests {
         let exponent = |&sigma: &f64| Estimate { mean: truth(sigma), standard_error: 1e-5 };
         let measure = |sigmas: &[f64], _| Ok(sigmas.iter().map(exponent).collect());
         let advance: &dyn Fn(Advance) = &|_| ();
-        let mut finder =
-            Finder { refinement: &refinement, advance, floor: 1e-5, measure, split: None };
+        let mut finder = Finder {
+            refinement: &refinement,
+            advance,
+            floor: 1e-5,
+            measure,
+            split: None,
+            has_step: true,
+        };
         let first = Signed { sigma: 1.0, negative: truth(1.0) < 0.0 };
         let (certain, end) = with(state, vec![first], &mut finder).unwrap();
         (certain[0].sigma, end)

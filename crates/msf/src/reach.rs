@@ -6,9 +6,12 @@ use dynamics::{Estimate, Progress};
 
 use crate::{MsfError, Node};
 
-/// σ of the look are the step's inverse times powers of 1/2: from where RK4 still damps as it should
-/// down to where coupling hardly matters.
+/// σ of the look are the largest times powers of 1/2, down to where coupling hardly matters. The largest
+/// is half the step's inverse, where RK4 still damps as it should.
 const POWERS: i32 = 16;
+
+/// The largest σ of the look at a map, times two: beyond, few of DF − σ DH contract.
+const MAPS: f64 = 64.0;
 
 /// A sign counts when Λ is this many standard errors away from zero.
 const CERTAIN: f64 = 3.0;
@@ -24,7 +27,8 @@ pub fn reach(
     seed: u64,
     progress: Progress<'_>,
 ) -> Result<f64, MsfError> {
-    let sigma: Vec<f64> = (1..=POWERS).rev().map(|power| 0.5f64.powi(power) / times.step).collect();
+    let beyond = if node.dynamics.is_map() { MAPS } else { 1.0 / times.step };
+    let sigma: Vec<f64> = (1..=POWERS).rev().map(|power| 0.5f64.powi(power) * beyond).collect();
     let tangents: Vec<Tangent> = sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
     let lambda =
         master_exponents(node.dynamics.as_ref(), &node.coupling, times, &tangents, progress)?;

@@ -59,6 +59,8 @@ pub(crate) struct Finder<'a, M> {
     pub measure: M,
     /// Where orbits have settled on different attractors.
     pub split: Option<f64>,
+    /// Whether there is a step to halve: none of a map.
+    pub has_step: bool,
 }
 
 impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
@@ -217,8 +219,8 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             window = window.min((0.25 * window).max(least));
         }
         match slope {
-            Some(slope) => self.with_step(best, slope),
-            None => Ok(best),
+            Some(slope) if self.has_step => self.with_step(best, slope),
+            _ => Ok(best),
         }
     }
 
@@ -282,8 +284,14 @@ mod tests {
             let grid: Vec<_> = sigma.into_iter().zip(grid).collect();
             let measure = |sigmas: &[f64], _| Ok(self.exponents(sigmas));
             let advance: &dyn Fn(Advance) = &|_| ();
-            let mut finder =
-                Finder { refinement: &refinement, advance, floor: 0.0, measure, split: None };
+            let mut finder = Finder {
+                refinement: &refinement,
+                advance,
+                floor: 0.0,
+                measure,
+                split: None,
+                has_step: true,
+            };
             let signs = finder.settle(&grid).unwrap();
             let found = finder.zeros(&signs).unwrap();
             assert_eq!(found.split, None);

@@ -1,13 +1,14 @@
 //! What an experiment will do and cost, in words: `eigensync check`.
 
-use eigensync::{Sweep, Warning};
+use dynamics::Method;
+use eigensync::Warning;
 use std::fmt::Write;
 
 use clustering::ClusterRule;
-use dynamics::{Adaptive, AdaptiveOrder, Method};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::orbits::Orbits;
 use crate::trial;
 use experiment::spec::{FigureKind, MatrixKind};
 use experiment::{Memory, Plan};
@@ -52,14 +53,13 @@ pub fn describe(plan: &Plan) -> String {
             network.isolated_nodes().len()
         ),
     );
-    let parameters = serde_json::to_string(&plan.node.model).unwrap_or_default();
+    let parameters = serde_json::to_string(&plan.node.oscillator).unwrap_or_default();
     line("oscillator", parameters);
-    let matrix = match plan.coupling.matrix {
+    let matrix = match plan.matrix {
         MatrixKind::Laplacian => "laplacian",
         MatrixKind::Normalized => "normalized",
     };
-    let (from, to) = (&plan.coupling.from, &plan.coupling.to);
-    line("coupling", format!("{matrix}; {from} into {to}"));
+    line("coupling", format!("{matrix}; {}", plan.node.function));
     line(
         "prediction",
         match plan.study.rule {
@@ -92,7 +92,7 @@ pub fn describe(plan: &Plan) -> String {
                 epsilon[epsilon.len() - 1],
                 sweep.seeds.len(),
                 epsilon.len() * sweep.seeds.len(),
-                method(sweep),
+                in_words(sweep.method),
                 schedule.step,
                 schedule.transient,
                 schedule.average,
@@ -112,10 +112,14 @@ pub fn describe(plan: &Plan) -> String {
             ),
         );
     }
+    line("orbits", Orbits::of(plan).to_string());
     line("figure", figure(plan));
     line("claims", plan.claims.len().to_string());
     line("memory", format!("about {}", Memory::of(plan)));
     line("cost", Cost::of(plan).words());
+    for warning in doubts(plan).iter().chain(&plan.doubts) {
+        line("warning", warning.message.clone());
+    }
     text
 }
 
@@ -140,12 +144,11 @@ fn figure(plan: &Plan) -> String {
 }
 
 /// The integrator by the name that experiment files call it.
-fn method(sweep: &Sweep) -> &'static str {
-    match sweep.method {
-        Method::Rk4 => "rk4",
-        Method::Adaptive(Adaptive { order: AdaptiveOrder::Five, .. }) => "dopri5",
-        Method::Adaptive(Adaptive { order: AdaptiveOrder::Eight, .. }) => "dop853",
-    }
+fn in_words(method: Method) -> String {
+    serde_json::to_value(experiment::method(method))
+        .ok()
+        .and_then(|name| name.as_str().map(ToOwned::to_owned))
+        .unwrap_or_default()
 }
 
 /// Steps to be done, and the time they will take at the speed of a short trial on this machine.
@@ -209,6 +212,7 @@ pub struct Checked {
     /// What the figure will not show as asked.
     figure_without: Vec<String>,
     memory_bytes: u64,
+    orbits: Orbits,
     cost: Cost,
     warnings: Vec<Warning>,
 }
@@ -245,8 +249,9 @@ impl Checked {
             claims: plan.claims.len(),
             figure_without: drawing::foreseen(plan),
             memory_bytes: Memory::of(plan).bytes(),
+            orbits: Orbits::of(plan),
             cost: Cost::of(plan),
-            warnings: plan.doubts.clone(),
+            warnings: [doubts(plan), plan.doubts.clone()].concat(),
         }
     }
 }

@@ -20,7 +20,7 @@ use spectra::Spectrum;
 
 use crate::warning;
 use experiment::Node;
-use journal::{Journal, Kind, is_worth_keeping};
+use journal::{Journal, Key, Kind, is_worth_keeping};
 use user::Stages;
 
 use crate::Work;
@@ -54,7 +54,7 @@ impl Compute for Kept<'_> {
         };
         let known = curves.0.iter().find(same).map(|(_, _, curve)| curve.clone());
         let is_known = known.is_some();
-        let key = journal.key(Kind::Curve, &(&plan.node, &study.msf));
+        let key = curve_key(journal, &plan.node, &study.msf);
         let curve = journal.once((Kind::Curve, key), || {
             let compute = |progress: Progress<'_>, ahead: &dyn Fn(u64, &str)| {
                 let steps = study.msf.times.steps();
@@ -121,6 +121,27 @@ impl Compute for Kept<'_> {
     }
 }
 
+/// What a curve is known by.
+pub fn curve_key(journal: &Journal, node: &Node, request: &msf::Request) -> Key {
+    journal.key(Kind::Curve, &(node, request))
+}
+
+/// Times of a first look at Λ, which finds how far a curve must reach; of a flow with a step, or of a map.
+pub fn first_look(is_map: bool, step: f64) -> Times {
+    match is_map {
+        true => Times { step: 1.0, transient: 1000.0, average: 20_000.0, renormalise: 1.0 },
+        false => Times { step, transient: 500.0, average: 4000.0, renormalise: 0.5 },
+    }
+}
+
+/// Seed of the first look.
+pub const LOOK_SEED: u64 = 1;
+
+/// What a first look is known by.
+pub fn look_key(journal: &Journal, node: &Node, times: &Times) -> Key {
+    journal.key(Kind::Look, &(node, times, LOOK_SEED))
+}
+
 /// How far the curve must reach, by a first look at powers of two.
 pub fn reach(
     node: &Node,
@@ -128,16 +149,15 @@ pub fn reach(
     stages: &Stages,
     journal: &Journal,
 ) -> std::result::Result<f64, msf::MsfError> {
-    const SEED: u64 = 1;
-    let key = journal.key(Kind::Look, &(node, times, SEED));
+    let key = look_key(journal, node, times);
     journal.once((Kind::Look, key), || {
-        let look = |progress: Progress<'_>| msf::reach(&node.equations(), times, SEED, progress);
+        let look = |progress: Progress<'_>| msf::reach(&node.equations, times, LOOK_SEED, progress);
         stages.measured("first look at the msf", 16 * times.steps(), look)
     })
 }
 
 /// How far the refinement of a zero has come.
-fn refined(zero: msf::Advance) -> String {
+pub fn refined(zero: msf::Advance) -> String {
     let [sigma, wanted] = [four_digits(zero.sigma), two_digits(zero.wanted)];
     format!("zero at sigma = {sigma} ± {}, asked ± {wanted}", two_digits(zero.standard_error))
 }

@@ -57,7 +57,7 @@ fn failed(plan: &Plan, failure: &Failure) -> Problem {
     };
     let problem = Problem::new(error.to_string()).in_file(&plan.file);
     match error {
-        Error::Overflow { sigma } => {
+        Error::Curve(MsfError::Dynamics(DynamicsError::Overflow { sigma })) => {
             let message = format!(
                 "reaches {}, where perturbations grow beyond all numbers between two renormalisations",
                 plain(*sigma)
@@ -66,9 +66,9 @@ fn failed(plan: &Plan, failure: &Failure) -> Problem {
             Problem::with_key(&plan.file, "msf.sigma", message).hint(hint)
         }
         Error::Curve(MsfError::Dynamics(DynamicsError::Escaped { .. })) => problem.hint(format!(
-            "either the parameters of [oscillator.{}] leave it no bounded attractor, or `msf.step` is \
-             too long for it",
-            plan.node.model.name()
+            "either the parameters of [oscillator.{}] leave it no bounded attractor, or orbits begin outside \
+             of its basin, or `msf.step` is too long for it, or `escape_radius` too small",
+            plan.node.oscillator.name()
         )),
         Error::OnlyZeroModes { .. } => problem.hint(format!(
             "the network has {} components, and each brings an eigenvalue 0: ask for more modes \

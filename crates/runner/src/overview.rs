@@ -105,18 +105,20 @@ pub fn isolated(msf: &MasterStability) -> String {
 }
 
 /// The stable set, and what was looked at.
-pub fn stable(MasterStability { stable, sigma, .. }: &MasterStability) -> String {
+pub fn stable(MasterStability { stable, sigma, between, .. }: &MasterStability) -> String {
     if stable.intervals.is_empty() {
         return format!("none of {}: nothing is predicted to synchronise", looked(sigma));
     }
     let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
-    let looked = format!("looked at from {from} to {to}");
+    let closer = if *between > 0 { format!(", closer at {between}") } else { String::new() };
+    let looked = format!("looked at from {from} to {to}{closer}");
     let intervals: Vec<String> = stable.intervals.iter().map(interval).collect();
     let beyond = if stable.is_unbounded() { ", and taken to be stable beyond" } else { "" };
     format!("{} ({looked}{beyond})", intervals.join(", "))
 }
 
-fn interval(Interval { from, to }: &Interval) -> String {
+/// A window of stable σ.
+pub fn interval(Interval { from, to }: &Interval) -> String {
     match to {
         End::Looked { .. } => format!("sigma > {}", end(from)),
         _ => format!("{} < sigma < {}", end(from), end(to)),

@@ -5,6 +5,7 @@ use std::time::Duration;
 use indexmap::IndexMap;
 use serde::Serialize;
 
+use dynamics::InstructionSet;
 use experiment::Plan;
 use experiment::plan_hash;
 use journal::Held;
@@ -43,9 +44,10 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Of a run that took so long in all and in its stages, and had so much computed by an earlier one.
+    /// Of a run of a plan with a seed, a hash and instructions, that took so long in all and in its stages,
+    /// and had so much computed by an earlier one.
     pub fn new(
-        plan: &Plan,
+        (seed, plan_hash, instructions): (u64, String, InstructionSet),
         taken_over: Held,
         (took, stages): (Duration, &[(String, Duration)]),
         origin: &Origin,
@@ -55,10 +57,10 @@ impl Provenance {
             version: program::VERSION,
             commit: program::COMMIT,
             origin: origin.clone(),
-            seed: plan.study.seed,
-            plan_hash: plan_hash(&plan.written, plan.shortened, &plan.links_hash),
+            seed,
+            plan_hash,
             host_features: host_features(),
-            instruction_set: plan.study.msf.instruction_set.name(),
+            instruction_set: instructions.name(),
             threads: rayon::current_num_threads(),
             taken_over,
             wall_time_s: seconds(took),
@@ -66,6 +68,12 @@ impl Provenance {
             peak_memory_bytes: peak_memory(),
         }
     }
+}
+
+/// What an experiment is known by: seed, hash, instructions.
+pub fn known_by(plan: &Plan) -> (u64, String, InstructionSet) {
+    let hash = plan_hash(&plan.written, plan.shortened, &plan.links_hash);
+    (plan.study.seed, hash, plan.study.msf.instruction_set)
 }
 
 /// Most memory that this process has held, as Linux counts it; none elsewhere.

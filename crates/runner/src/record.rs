@@ -16,7 +16,7 @@ use results_folder::Origin;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, known_by};
 use claims::Judged;
 
 pub use msf::{
@@ -100,7 +100,7 @@ pub fn summarise(
         simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),
-        provenance: Provenance::new(plan, taken, took, origin),
+        provenance: Provenance::new(known_by(plan), taken, took, origin),
         experiment: plan.written.clone(),
     }
 }

@@ -27,32 +27,43 @@ pub fn of(
 ) -> String {
     let mut text = format!("{}: {}\n\n", plan.id, one_line(&plan.title));
     text.push_str(&overview::of(plan, findings));
+    let rows = findings.simulated.as_ref().map_or(&[][..], |simulated| &simulated.epsilon);
+    let agreement = table::agreement(rows.iter().copied().zip(&findings.agreement));
+    add_judged(&mut text, claims, agreement.as_deref(), warnings, comparison);
+    printable(&text).into_owned()
+}
+
+/// Adds what is judged, what must be known beside it, and what became of the golden output.
+pub fn add_judged(
+    text: &mut String,
+    claims: &[Judged],
+    agreement: Option<&str>,
+    warnings: &[Warning],
+    comparison: Option<&Comparison>,
+) {
     if !claims.is_empty() {
-        add(&mut text, "claims", &table::claims(claims));
+        add(text, "claims", &table::claims(claims));
         let reasons = claims.iter().filter(|claim| !claim.reason.is_empty());
         for claim in reasons {
-            line(&mut text, format_args!("{}: {}", claim.sentence(), one_line(&claim.reason)));
+            line(text, format_args!("{}: {}", claim.sentence(), one_line(&claim.reason)));
         }
     }
-    let epsilon = findings.simulated.as_ref().map_or(&[][..], |simulated| &simulated.epsilon);
-    let agreement = epsilon.iter().copied().zip(&findings.agreement);
-    if let Some(table) = table::agreement(agreement) {
-        add(&mut text, "prediction against simulation", &table);
+    if let Some(table) = agreement {
+        add(text, "prediction against simulation", table);
     }
     if !warnings.is_empty() {
-        add(&mut text, "warnings", "");
+        add(text, "warnings", "");
         for warning in warnings {
-            line(&mut text, format_args!("{}: {}", warning.about, one_line(&warning.message)));
+            line(text, format_args!("{}: {}", warning.about, one_line(&warning.message)));
         }
     }
     if let Some(comparison) = comparison {
         let lines = comparison.lines();
         let verdict = if comparison.holds() { "holds" } else { "differs" };
-        add(&mut text, &format!("the comparison with the golden output {verdict}"), "");
-        line(&mut text, format_args!("{} values differ", lines.len()));
-        lines.iter().for_each(|moved| line(&mut text, format_args!("{}", one_line(moved))));
+        add(text, &format!("the comparison with the golden output {verdict}"), "");
+        line(text, format_args!("{} values differ", lines.len()));
+        lines.iter().for_each(|moved| line(text, format_args!("{}", one_line(moved))));
     }
-    printable(&text).into_owned()
 }
 
 fn add(text: &mut String, title: &str, content: &str) {

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use eigensync::Findings;
-use experiment::Plan;
+use experiment::Planned;
 use golden::Comparison;
 use results_folder::{Place, id};
 use serde_json::Value;
@@ -14,15 +13,17 @@ use user::{Problem, Result, Stages, Watch};
 
 use crate::computed::Curves;
 use crate::results::{self, Written};
-use crate::{Work, findings};
+use crate::{Work, findings, overview};
 use claims::{Judged, judge};
 
 /// An experiment that has run.
 pub struct Done {
     /// Where its results are.
     pub place: PathBuf,
-    /// What was found.
-    pub findings: Findings,
+    /// What was found, in words.
+    pub said: String,
+    /// What was looked at besides, in words that go on.
+    pub noted: Option<String>,
     /// Its claims, judged.
     pub claims: Vec<Judged>,
     /// What differs from the golden output, where there is one.
@@ -32,7 +33,7 @@ pub struct Done {
 }
 
 /// Plans and the stages that they took.
-pub type Plans = Vec<(Plan, Stages)>;
+pub type Plans = Vec<(Planned, Stages)>;
 
 /// Plans all files, before any is run, so that a slip in the last one shows at once; two of one name
 /// would overwrite each other's results. Experiments whose data are not here come apart, as the problems
@@ -56,13 +57,15 @@ pub fn plans(
         }
     }
     for (position, (later, _)) in plans.iter().enumerate() {
-        if let Some((earlier, _)) = plans[..position].iter().find(|(plan, _)| plan.id == later.id) {
+        if let Some((earlier, _)) =
+            plans[..position].iter().find(|(plan, _)| plan.id() == later.id())
+        {
             let message = format!(
                 "has the same name as {}, and both would write the results folder {}",
-                shown(&earlier.file),
-                later.id
+                shown(earlier.file()),
+                later.id()
             );
-            return Err(Problem::new(message).in_file(&later.file).hint("run them one by one"));
+            return Err(Problem::new(message).in_file(later.file()).hint("run them one by one"));
         }
     }
     Ok((plans, left_out))
@@ -94,5 +97,7 @@ pub fn run(
         Ok((findings, claims, written))
     })?;
     let Written { place, comparison } = written;
-    Ok(Done { place, findings, claims, comparison, took: took() })
+    let said = overview::of(work.plan, &findings);
+    let noted = eigensync::step_effects_looked_at(&findings.step_effects);
+    Ok(Done { place, said, noted, claims, comparison, took: took() })
 }

@@ -3,7 +3,6 @@
 //! take about a second together, two for a million nodes, since what grows is clipped and scaled.
 
 use eigensync::Sweep;
-use std::sync::Arc;
 use std::time::Instant;
 
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
@@ -36,19 +35,30 @@ pub struct Trial {
     pub escaped: bool,
 }
 
+/// Seconds of Λ(0) by itself, on one thread.
+pub fn of_isolated(plan: &Plan) -> f64 {
+    let orbits = msf::ISOLATED_ORBITS as f64 / plan.study.msf_steps() as f64;
+    of_msf(plan).seconds * orbits * plan.study.msf.times.steps() as f64
+}
+
 /// Of all tangent vectors that the master stability function takes.
 pub fn of_msf(plan: &Plan) -> Trial {
-    let planned = &plan.study.msf.times;
+    let study = &plan.study;
+    of_curve(&study.node, &study.msf.times, plan.study.msf_steps())
+}
+
+/// Of so many steps of tangent vectors.
+pub fn of_curve(node: &msf::Node, planned: &Times, steps: u64) -> Trial {
     // Twenty blocks of one interval each, shorter where steps are very many.
     let renormalise = planned.renormalise.min(TANGENT_STEPS / 20.0 * planned.step);
     let times = Times { transient: 0.0, average: 20.0 * renormalise, renormalise, ..*planned };
     let tangents: Vec<_> = (0..16).map(|seed| Tangent { sigma: 1.0, seed }).collect();
-    let node = &plan.node;
+    let msf::Node { dynamics, coupling } = node;
     let (seconds, exponents) =
-        timed(|| master_exponents(&node.model, &node.coupling, &times, &tangents, dynamics::QUIET));
+        timed(|| master_exponents(dynamics.as_ref(), coupling, &times, &tangents, dynamics::QUIET));
     let per_step = seconds / (16.0 * times.steps() as f64);
     Trial {
-        seconds: per_step * plan.study.msf_steps() as f64,
+        seconds: per_step * steps as f64,
         escaped: matches!(exponents, Err(DynamicsError::Escaped { .. })),
     }
 }
@@ -101,7 +111,7 @@ impl<'a> Bench<'a> {
         let samples = samples.clamp(SAMPLES[0], SAMPLES[1]).round();
         let planned = sweep.schedule.step;
         let (step, samples) = match sweep.method {
-            Method::Rk4 => (planned, samples),
+            Method::Rk4 | Method::Iterate => (planned, samples),
             Method::Adaptive(_) => (planned.min(ADAPTIVE_INTERVAL), SAMPLES[0]),
         };
         // A hair more than so many samples, which rounding would else make one less.
@@ -116,8 +126,8 @@ impl<'a> Bench<'a> {
 
     fn run(&self, observables: Observables) -> Trial {
         let simulation = Simulation {
-            dynamics: Arc::new(self.plan.node.model),
-            coupling: self.plan.node.coupling.clone(),
+            dynamics: self.plan.study.node.dynamics.clone(),
+            coupling: self.plan.study.node.coupling.clone(),
             matrix: self.plan.study.matrix.matrix(),
             method: self.sweep.method,
             schedule: self.schedule,

@@ -18,7 +18,7 @@ pub struct Work<'a> {
 impl Work<'_> {
     /// What the coupling matrix is known by.
     pub fn matrix(&self) -> (&str, usize, u8) {
-        let Plan { links_hash, study, coupling, .. } = self.plan;
-        (links_hash, study.network.n_nodes(), coupling.matrix as u8)
+        let Plan { links_hash, study, matrix, .. } = self.plan;
+        (links_hash, study.network.n_nodes(), *matrix as u8)
     }
 }

@@ -54,7 +54,9 @@ impl Problem {
     /// the user knows.
     #[must_use]
     pub fn renamed(mut self, from: &Path, to: &Path) -> Self {
-        if self.place.as_deref() == Some(&shown(from)) {
+        let from = shown(from);
+        let rest = self.place.as_deref().and_then(|place| place.strip_prefix(&*from));
+        if rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':')) {
             self.place = Some(shown(to));
         }
         self

@@ -1,6 +1,6 @@
 //! What follows from Λ(σ): Λ(0), σ_c, critical couplings.
 
-use eigensync::msf::coupling_at;
+use eigensync::msf::{Zero, coupling_at};
 use eigensync::numbers::four_digits;
 
 use super::spectrum;
@@ -24,6 +24,17 @@ pub fn sigma_c(found: &Found<'_>) -> Vec<Number> {
 /// Whether σ_c is not known as well as was asked for.
 pub fn sigma_c_is_unrefined(found: &Found<'_>) -> bool {
     found.findings.msf.stable.sigma_c().is_some_and(|zero| !zero.refined)
+}
+
+/// The zeros that bound the stable set.
+pub fn zeros(found: &Found<'_>) -> Vec<Number> {
+    let known = |zero: Zero| Number::Known { value: zero.sigma, error: zero.standard_error };
+    found.findings.msf.stable.zeros().map(known).collect()
+}
+
+/// Whether any of them is not known as well as was asked for.
+pub fn zeros_are_unrefined(found: &Found<'_>) -> bool {
+    found.findings.msf.stable.zeros().any(|zero| !zero.refined)
 }
 
 /// ε_k above which each of the claimed modes is stable.

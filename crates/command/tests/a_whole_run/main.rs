@@ -1,6 +1,7 @@
 //! Whole runs through the command: exit status, the files of the results folder, sameness of results,
 //! comparison with golden outputs, and networks that make trouble.
 
+mod atlas;
 mod cascade;
 mod comparison;
 mod curve;
@@ -13,6 +14,7 @@ mod honest;
 mod hostile;
 mod judged;
 mod odd_networks;
+mod own;
 mod place;
 mod predict;
 mod results;

@@ -108,7 +108,7 @@ fn an_unknown_oscillator_is_answered_with_those_there_are() {
         &other("lorentz"),
         &["unknown name `oscillator.lorentz`", "did you mean `lorenz`?"],
     );
-    check_refused(&other("pendulum"), &["known here: lorenz, hindmarsh_rose, rossler"]);
+    check_refused(&other("metronome"), &["known here: chen, chua", "lorenz", "custom"]);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn names_that_are_not_known_are_answered_with_those_that_are() {
         check_refused(&tiny().set(key, &format!("\"{value}\"")), &[key, value, expected]);
     };
     unknown("coupling.matrix", "laplace", "did you mean `laplacian`?");
-    unknown("sweep.method", "euler", "known here: rk4, dopri5, dop853");
+    unknown("sweep.method", "euler", "known here: rk4, iterate, dopri5, dop853");
     unknown("network.file.format", "excel", "known here: edge_list");
     unknown("claims.integers.of", "eigenvalue", "did you mean `eigenvalues`?");
     check_refused(

@@ -2,8 +2,10 @@
 //! status 2, nothing on standard output, no results.
 
 mod abuse;
+mod atlas;
 mod claims;
 mod effects;
+mod equations;
 mod keys;
 mod mutated;
 mod networks;

@@ -4,6 +4,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod atlas;
 mod kept;
 mod moments;
 mod signals;

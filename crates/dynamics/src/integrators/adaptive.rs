@@ -10,12 +10,13 @@ use ode_solvers::{DVector, Dop853, Dopri5, System};
 
 use super::{Adaptive, AdaptiveOrder};
 use crate::batches::Numbered;
+use crate::coupling::Gain;
 use crate::kicks::Kicks;
 use crate::observables::ErrorSums;
 use crate::random::initial_states;
 use crate::recorder::Recorder;
 use crate::tile::{slices, slices_mut};
-use crate::{ESCAPE_RADIUS, Next, Observer, Outcome, Simulation, Snapshot, Start};
+use crate::{Next, Observer, Outcome, Simulation, Snapshot, Start};
 
 /// Runs one replica to its end; none when the observer wanted to stop.
 pub(crate) fn run(
@@ -30,7 +31,8 @@ pub(crate) fn run(
     let transient = schedule.transient_samples();
     let (done, end) = (start.sample(), transient + schedule.samples());
     let mut orbit = Orbit::begin(simulation, start);
-    let n_components = simulation.dynamics.start().len();
+    let (n_components, n_free) = (simulation.dynamics.start().len(), simulation.dynamics.n_free());
+    let radius = simulation.dynamics.escape_radius();
     let mut recorder = Recorder::new(simulation.series.as_ref(), schedule, n_components);
     let mut record = |sample: u64, y: &DVector<f64>| {
         if recorder.due(sample) {
@@ -48,7 +50,7 @@ pub(crate) fn run(
     for sample in done + 1..=end {
         let Orbit { y, sums, kicks } = &mut orbit;
         let solved = method.advance(&system, y, schedule.sampling_interval());
-        if !y.iter().all(|x| x.abs() < ESCAPE_RADIUS) {
+        if !y.iter().take(n_free * n_nodes).all(|x| x.abs() < radius) {
             return ended(Outcome::Escaped { time: schedule.time_of(sample) });
         }
         if let Err(error) = solved {
@@ -62,7 +64,7 @@ pub(crate) fn run(
         }
         record(sample, y);
         if kicks.due(sample) {
-            y.iter_mut().for_each(|y| kicks.apply(std::array::from_mut(y)));
+            y.iter_mut().take(n_free * n_nodes).for_each(|y| kicks.apply(std::array::from_mut(y)));
         }
         match observer.advanced(&[number], u64::from(schedule.stride)) {
             Next::Snapshot if sample < end => {
@@ -116,7 +118,7 @@ impl Orbit {
             sums.restore(0, &kept);
             sums.go_on_after(averaged + 1);
         }
-        kicks.go_on_after(sample, n_components * n_nodes);
+        kicks.go_on_after(sample, dynamics.n_free() * n_nodes);
         Self { y: DVector::from_vec(state), sums, kicks }
     }
 }
@@ -164,8 +166,12 @@ impl System<f64, DVector<f64>> for Flat<'_> {
         let at = slices(y.as_slice().chunks(n_nodes));
         let mut to = slices_mut(slope.as_mut_slice().chunks_mut(n_nodes));
         dynamics.flow(*instruction_set, &at[..n_components], &mut to[..n_components]);
-        for (equation, component, weight) in coupling.derivative() {
-            let (source, strength) = (at[component], self.epsilon * weight);
+        let mut sent = vec![0.0; coupling.n_channels() * n_nodes];
+        let mut signals = slices_mut(sent.chunks_mut(n_nodes));
+        let signals = &mut signals[..coupling.n_channels()];
+        coupling.channels().send(*instruction_set, &at[..n_components], signals);
+        for &Gain { equation, channel, weight } in coupling.gains() {
+            let (source, strength) = (&signals[channel], self.epsilon * weight);
             for (node, row) in matrix.outer_iterator().enumerate() {
                 let input: f64 = row.iter().map(|(j, &w)| w * source[j]).sum();
                 to[equation][node] += strength * input;

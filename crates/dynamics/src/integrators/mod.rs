@@ -5,11 +5,13 @@ pub(crate) mod rk4;
 
 use serde::Serialize;
 
-/// How the equations of a network are integrated.
+/// How the equations of a network are integrated; those of a map are iterated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Method {
     /// Classical fourth-order Runge–Kutta with a fixed step, advanced in lanes.
     Rk4,
+    /// None: a map gives its next state, in steps of 1, in lanes.
+    Iterate,
     /// Adaptive Dormand–Prince through `ode_solvers`, one replica at a time: the independent check.
     Adaptive(Adaptive),
 }

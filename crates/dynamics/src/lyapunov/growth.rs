@@ -7,7 +7,8 @@ use crate::error::{check_times, whole};
 use crate::statistics::BLOCKS;
 use crate::{Coupling, DynamicsError, Estimate, Progress};
 
-/// Times of an average over an orbit, in model time units, with a fixed RK4 step.
+/// Times of an average over an orbit, in model time units, with a fixed RK4 step; of a map, in
+/// iterations, and the step is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Times {
     /// Step of the integrator.
@@ -34,6 +35,7 @@ pub struct Tangents<'a> {
     pub(super) coupling: &'a Coupling,
     pub(super) plan: &'a Plan,
     pub(super) tangents: &'a [Tangent],
+    pub(super) escape_radius: f64,
     pub(super) progress: Progress<'a>,
 }
 
@@ -115,7 +117,7 @@ pub(super) trait Growing<const L: usize> {
     /// Takes orbits and tangents some steps h forward.
     fn advance(&mut self, n_steps: u64, h: f64);
 
-    /// Whether every orbit is within [`crate::ESCAPE_RADIUS`]; a NaN is not.
+    /// Whether every orbit is within the radius of escape; a NaN is not.
     fn is_bounded(&self) -> bool;
 
     /// Scales the tangents to unit length, or makes them orthonormal; gives the logarithms of their
@@ -123,10 +125,34 @@ pub(super) trait Growing<const L: usize> {
     fn renormalise(&mut self) -> [f64; L];
 }
 
-/// The logarithm of a length, rounded alike on every machine as the platform's own need not be.
+/// Squares within these bounds are neither lost nor too large.
+const SQUARES: std::ops::Range<f64> = 1e-280..1e280;
+
+/// Length of a tangent.
+#[inline(always)]
+pub(super) fn length(components: impl Iterator<Item = f64> + Clone) -> f64 {
+    let squares = components.clone().map(|x| x * x).sum::<f64>();
+    if SQUARES.contains(&squares) {
+        return squares.sqrt();
+    }
+    let largest = components.clone().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if largest == 0.0 {
+        return squares;
+    }
+    components.map(|x| x / largest).map(|x| x * x).sum::<f64>().sqrt() * largest
+}
+
+/// The logarithm of a length, rounded alike on every machine as the platform's own need not be. A tangent
+/// that has [`vanished`] counts as long as the smallest number.
 #[inline(always)]
 pub(super) fn log(length: f64) -> f64 {
-    libm::log(length)
+    libm::log(if vanished(length) { f64::MIN_POSITIVE } else { length })
+}
+
+/// Whether nothing is left of a tangent, as where DF = σ DH: it then begins anew.
+#[inline(always)]
+pub(super) fn vanished(length: f64) -> bool {
+    length < f64::MIN_POSITIVE
 }
 
 pub(super) fn estimates<const L: usize>(blocks: &[[f64; L]], lanes: usize) -> Vec<Estimate> {

@@ -8,14 +8,12 @@
 use std::marker::PhantomData;
 use std::ops::Mul;
 
-use super::growth::{Growing, Tangents, estimates, log};
+use super::growth::{Growing, Tangents, estimates, length, log, vanished};
 use crate::instruction_set::Work;
 use crate::integrators::rk4::{self, Flow};
 use crate::random::initial_states;
 use crate::tile::TILE;
-use crate::{
-    Dual, DynamicsError, ESCAPE_RADIUS, Estimate, InstructionSet, Lanes, Oscillator, Scalar,
-};
+use crate::{Dual, DynamicsError, Estimate, InstructionSet, Lanes, Oscillator, Scalar};
 
 /// Exponents of compiled equations, in as many lanes as they need, about one orbit where they have one.
 pub(crate) fn exponents<O: Oscillator<D>, const D: usize>(
@@ -73,8 +71,8 @@ trait Orbit: Scalar {
     /// From the same component of the orbit of each tangent.
     fn from_lanes(lanes: &[f64]) -> Self;
 
-    /// Whether all are within [`ESCAPE_RADIUS`]; a NaN is not.
-    fn is_bounded(&self) -> bool;
+    /// Whether all are within a radius; a NaN is not.
+    fn is_within(&self, radius: f64) -> bool;
 }
 
 impl Orbit for f64 {
@@ -83,8 +81,8 @@ impl Orbit for f64 {
     }
 
     #[inline(always)]
-    fn is_bounded(&self) -> bool {
-        self.abs() < ESCAPE_RADIUS
+    fn is_within(&self, radius: f64) -> bool {
+        self.abs() < radius
     }
 }
 
@@ -94,8 +92,8 @@ impl<const L: usize> Orbit for Lanes<L> {
     }
 
     #[inline(always)]
-    fn is_bounded(&self) -> bool {
-        self.0.iter().all(f64::is_bounded)
+    fn is_within(&self, radius: f64) -> bool {
+        self.0.iter().all(|x| x.is_within(radius))
     }
 }
 
@@ -110,11 +108,13 @@ where
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self(oscillator, Tangents { coupling, plan, tangents, progress }, _) = self;
+        let Self(oscillator, Tangents { coupling, plan, tangents, escape_radius, progress }, _) =
+            self;
         // Lanes beyond the batch repeat its last tangent and are never read.
         let tangent = |lane: usize| tangents[lane.min(tangents.len() - 1)];
         let sigma = |weight| Lanes(std::array::from_fn(|lane| tangent(lane).sigma * weight));
-        let damping = coupling.derivative().map(|(d, c, weight)| (d, c, sigma(weight)));
+        let entries = coupling.constant_derivative().expect("others are evaluated in tiles");
+        let damping = entries.map(|(d, c, weight)| (d, c, sigma(weight)));
         let equation = MasterEquation { oscillator, damping: damping.collect() };
         let orbits: [Vec<f64>; L] =
             std::array::from_fn(|lane| initial_states(&O::START, 1, tangent(lane).seed));
@@ -123,8 +123,8 @@ where
             tangent: Lanes([1.0; L]),
         });
         let count = tangents.len();
-        let blocks = plan
-            .block_means(&mut Growth { equation, state }, |steps| progress(steps * count as u64))?;
+        let mut growth = Growth { equation, state, escape_radius: *escape_radius };
+        let blocks = plan.block_means(&mut growth, |steps| progress(steps * count as u64))?;
         Ok(estimates(&blocks, count))
     }
 }
@@ -135,6 +135,7 @@ where
 struct Growth<O, V, const D: usize, const L: usize> {
     equation: MasterEquation<O, L>,
     state: [Dual<V, Lanes<L>>; D],
+    escape_radius: f64,
 }
 
 impl<O: Oscillator<D>, V: Orbit, const D: usize, const L: usize> Growing<L> for Growth<O, V, D, L>
@@ -152,17 +153,17 @@ where
 
     #[inline(always)]
     fn is_bounded(&self) -> bool {
-        self.state.iter().all(|component| component.value.is_bounded())
+        self.state.iter().all(|component| component.value.is_within(self.escape_radius))
     }
 
     #[inline(always)]
     fn renormalise(&mut self) -> [f64; L] {
         let mut logs = [0.0; L];
         for lane in 0..L {
-            let square = |x: &Dual<V, Lanes<L>>| x.tangent.0[lane] * x.tangent.0[lane];
-            let length = self.state.iter().map(square).sum::<f64>().sqrt();
+            let length = length(self.state.iter().map(|x| x.tangent.0[lane]));
             for x in &mut self.state {
-                x.tangent.0[lane] /= length;
+                let tangent = &mut x.tangent.0[lane];
+                *tangent = if vanished(length) { 1.0 } else { *tangent / length };
             }
             logs[lane] = log(length);
         }

@@ -4,13 +4,14 @@ mod hindmarsh_rose;
 mod lorenz;
 mod rossler;
 
+use equations::Program;
 use serde::{Deserialize, Serialize};
 
 use crate::lyapunov::Tangents;
 use crate::stage::Stage;
 use crate::{
     DynamicsError, Estimate, Fused, InstructionSet, Linearised, LinearisedMut, Native,
-    NodeDynamics, Oscillator,
+    NodeDynamics, Oscillator, trace,
 };
 
 /// Declares [`Model`]: a line here, and `mod` above, are all that a new oscillator needs beyond its own
@@ -74,6 +75,11 @@ macro_rules! models {
             /// The oscillator's name in experiment files.
             pub fn name(&self) -> &'static str {
                 match self { $(Self::$name(_) => $tag),* }
+            }
+
+            /// Its equations as a program, which is that of their text.
+            pub fn program(&self) -> Program {
+                match self { $(Self::$name(o) => trace(o)),* }
             }
 
             /// Every oscillator there is, with its default parameters.

@@ -4,7 +4,7 @@ use claims::{Claim, Fault};
 use eigensync::Study;
 use user::{Problem, Result};
 
-use super::Checker;
+use super::checker::Checker;
 
 impl Checker<'_> {
     /// What each claim needs beside its quantity must be there, and must name what exists.

@@ -1,7 +1,7 @@
 //! Keys that would change nothing where they stand: whoever writes one expects something of it, and is
 //! told that it would not come.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::spec::{FigureKind, MethodKind, NetworkSpec};
 use graph::formats::{Choice, FORMATS};
 use user::Result;
@@ -32,7 +32,7 @@ impl Checker<'_> {
         self.of_figure()?;
         self.of_file()?;
         if let Some(sweep) = &self.experiment.sweep
-            && matches!(sweep.method, MethodKind::Rk4)
+            && !matches!(sweep.method, Some(MethodKind::Dopri5 | MethodKind::Dop853))
         {
             let reason = "the steps of rk4 are all `sweep.step` long; the adaptive methods, dopri5 \
                           and dop853, have a tolerance";

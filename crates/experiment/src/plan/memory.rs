@@ -8,7 +8,8 @@ use std::path::Path;
 
 use dynamics::Observables;
 
-use super::{Checker, Plan, drawn_kind};
+use super::checker::Checker;
+use super::{Plan, drawn_kind};
 use crate::machine::available_memory;
 use crate::spec::{FigureKind, NetworkSpec};
 use user::{Problem, Result};

@@ -5,7 +5,7 @@ use graph::{NameError, Network};
 
 use eigensync::{ALL_PAIRS, WantedModes, misnamed_modes};
 
-use super::Checker;
+use super::checker::Checker;
 use crate::spec::{FigureKind, Layout};
 use user::{Problem, Result};
 

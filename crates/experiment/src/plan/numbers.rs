@@ -4,7 +4,7 @@ use dynamics::{BLOCKS, Schedule};
 use eigensync::numbers::plain;
 use eigensync::{ALL_PAIRS, Bound};
 
-use super::Checker;
+use super::checker::Checker;
 use crate::spec::{EvenGrid, Grid};
 use user::Result;
 

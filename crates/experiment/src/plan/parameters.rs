@@ -1,16 +1,15 @@
 //! Every parameter that a run used, in the words of experiment files: what the file says, the defaults
 //! for what it leaves out, and what `--quick` made of the times.
 
-use dynamics::NodeDynamics;
+use dynamics::{Adaptive, AdaptiveOrder, Method};
 use serde_json::{Value, json};
 
 use eigensync::Study;
 
-use super::Node;
-use crate::spec::{Experiment, NetworkSpec};
+use crate::spec::{Experiment, MethodKind, NetworkSpec};
 
 /// The resolved experiment; keys that have no effect in it are null.
-pub fn of(experiment: &Experiment, study: &Study, node: &Node) -> Value {
+pub fn of(experiment: &Experiment, study: &Study) -> Value {
     let mut parameters = serde_json::to_value(experiment).unwrap_or_default();
     let mut set = |pointer: &str, value: Value| {
         if let Some((table, key)) = pointer.rsplit_once('/')
@@ -24,6 +23,8 @@ pub fn of(experiment: &Experiment, study: &Study, node: &Node) -> Value {
     }
     set("/spectrum/modes", json!(study.modes.wanted()));
     set("/spectrum/tolerance", json!(study.modes.tolerance()));
+    set("/msf/step", json!(study.msf.times.step));
+    set("/msf/renormalise", json!(study.msf.times.renormalise));
     set("/msf/transient", json!(study.msf.times.transient));
     set("/msf/average", json!(study.msf.times.average));
     set("/msf/relative_error", json!(study.msf.refinement.relative_error));
@@ -31,11 +32,25 @@ pub fn of(experiment: &Experiment, study: &Study, node: &Node) -> Value {
     if let Some(sweep) = &study.sweep {
         set("/sweep/transient", json!(sweep.schedule.transient));
         set("/sweep/average", json!(sweep.schedule.average));
-        set("/sweep/component", json!(node.model.components()[sweep.observables.component]));
+        let components = study.node.dynamics.components();
+        set("/sweep/component", json!(components[sweep.observables.component]));
+        set("/sweep/method", json!(method(sweep.method)));
+        set("/sweep/step", json!(sweep.schedule.step));
+        set("/sweep/stride", json!(sweep.schedule.stride));
         set("/sweep/pairs", json!(sweep.observables.pairs));
-        if sweep.method == dynamics::Method::Rk4 {
+        if !matches!(sweep.method, Method::Adaptive(_)) {
             set("/sweep/tolerance", Value::Null);
         }
     }
     parameters
+}
+
+/// The integrator by the name that experiment files call it.
+pub fn method(method: Method) -> MethodKind {
+    match method {
+        Method::Rk4 => MethodKind::Rk4,
+        Method::Iterate => MethodKind::Iterate,
+        Method::Adaptive(Adaptive { order: AdaptiveOrder::Five, .. }) => MethodKind::Dopri5,
+        Method::Adaptive(Adaptive { order: AdaptiveOrder::Eight, .. }) => MethodKind::Dop853,
+    }
 }

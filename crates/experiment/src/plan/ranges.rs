@@ -1,6 +1,6 @@
 //! The range in which each number of an experiment makes sense, and why it ends where it does.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::spec::{RegionsSpec, SweepSpec};
 use eigensync::Bound;
 use eigensync::numbers::plain;
@@ -68,15 +68,15 @@ impl Checker<'_> {
         Err(self.problem(key, message).hint(why))
     }
 
-    pub(super) fn msf_ranges(&self) -> Result<()> {
+    pub(super) fn msf_ranges(&self, step: f64, renormalise: f64) -> Result<()> {
         let spec = &self.experiment.msf;
-        self.within("msf.step", spec.step, STEP)?;
-        self.within("msf.renormalise", spec.renormalise, RENORMALISE)?;
+        self.within("msf.step", step, STEP)?;
+        self.within("msf.renormalise", renormalise, RENORMALISE)?;
         self.within("msf.relative_error", spec.relative_error, RELATIVE_ERROR)
     }
 
-    pub(super) fn sweep_ranges(&self, spec: &SweepSpec) -> Result<()> {
-        self.within("sweep.step", spec.step, STEP)?;
+    pub(super) fn sweep_ranges(&self, spec: &SweepSpec, step: f64) -> Result<()> {
+        self.within("sweep.step", step, STEP)?;
         self.within("sweep.tolerance", spec.tolerance, TOLERANCE)?;
         if spec.kick != 0.0 {
             self.within("sweep.kick", spec.kick, KICK)?;

@@ -3,13 +3,13 @@
 use std::cmp::Ordering;
 use std::collections::HashSet;
 
-use dynamics::{Model, NodeDynamics, Replica, Series};
+use dynamics::{NodeDynamics, Replica, Series};
 use eigensync::Sweep;
 use eigensync::numbers::plain;
 use graph::{Names, Network};
 use user::Result;
 
-use super::Checker;
+use super::checker::Checker;
 use crate::spec::SeriesSpec;
 
 /// The most numbers that are written, 8 bytes each and some twenty more as text.
@@ -40,7 +40,7 @@ impl Checker<'_> {
         &self,
         spec: &SeriesSpec,
         network: &Network,
-        model: Model,
+        dynamics: &dyn NodeDynamics,
     ) -> Result<Series> {
         let key = "sweep.series.nodes";
         let names = Names::of(network);
@@ -70,14 +70,18 @@ impl Checker<'_> {
         };
         Ok(Series {
             nodes,
-            components: self.series_components(spec, model)?,
+            components: self.series_components(spec, dynamics)?,
             every: spec.every,
             from: time("sweep.series.from", spec.from)?,
             to: time("sweep.series.to", spec.to)?,
         })
     }
 
-    fn series_components(&self, spec: &SeriesSpec, model: Model) -> Result<Option<Vec<usize>>> {
+    fn series_components(
+        &self,
+        spec: &SeriesSpec,
+        dynamics: &dyn NodeDynamics,
+    ) -> Result<Option<Vec<usize>>> {
         let key = "sweep.series.components";
         let Some(names) = &spec.components else { return Ok(None) };
         if names.is_empty() {
@@ -85,7 +89,7 @@ impl Checker<'_> {
         }
         let mut components = Vec::new();
         for name in names {
-            let component = self.component(key, name, model)?;
+            let component = self.component(key, name, dynamics)?;
             if components.contains(&component) {
                 return Err(self.problem(key, format!("has \"{name}\" more than once")));
             }
@@ -99,7 +103,7 @@ impl Checker<'_> {
         &self,
         sweep: &Sweep,
         network: &Network,
-        model: Model,
+        dynamics: &dyn NodeDynamics,
     ) -> Result<Option<Recorded>> {
         let spec = self.experiment.sweep.as_ref().and_then(|sweep| sweep.series.as_ref());
         let (Some(spec), Some(series)) = (spec, &sweep.series) else { return Ok(None) };
@@ -124,7 +128,7 @@ impl Checker<'_> {
         }
         let recorded = Recorded {
             replicas: epsilon.iter().flat_map(of).collect(),
-            columns: columns(series, network, model),
+            columns: columns(series, network, dynamics),
             n_states,
         };
         if recorded.n_numbers() > MOST_NUMBERS {
@@ -184,8 +188,8 @@ impl Checker<'_> {
 }
 
 /// Names of the numbers of a state: node by node, component by component.
-fn columns(series: &Series, network: &Network, model: Model) -> Vec<String> {
-    let all = model.components();
+fn columns(series: &Series, network: &Network, dynamics: &dyn NodeDynamics) -> Vec<String> {
+    let all = dynamics.components();
     let components = match &series.components {
         Some(components) => components.iter().map(|&component| all[component]).collect(),
         None => all.to_vec(),

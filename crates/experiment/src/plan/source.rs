@@ -12,7 +12,7 @@ use graph::generators::{
 use graph::prepare::{Report, Selection, Step, Symmetrise, apply};
 use graph::{Group, Network, RawNetwork};
 
-use super::Checker;
+use super::checker::Checker;
 use super::watched::Watched;
 use crate::spec::{
     AttributesSpec, CommunitiesSpec, FileSpec, GroupsSpec, HierarchicalSpec, NetworkSpec, RowsSpec,

@@ -3,7 +3,7 @@
 use eigensync::{Wanted, WantedModes};
 use spectra::Solver;
 
-use super::Checker;
+use super::checker::Checker;
 use user::Result;
 
 /// The most nodes for the dense solver, which at this size needs 20 GB a matrix and a day.

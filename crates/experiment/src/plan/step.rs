@@ -5,7 +5,7 @@ use dynamics::{LinearSteps, Method, StepVerdict};
 use eigensync::numbers::{four_digits, plain, two_digits};
 use eigensync::{Study, Sweep, Warning};
 
-use super::{Checker, Node};
+use super::checker::Checker;
 use user::Result;
 
 /// Where a step is taken, and what would help beside a shorter one.
@@ -23,10 +23,10 @@ struct Step<'a> {
 impl Checker<'_> {
     /// Judges the steps of a plan: that of the master stability function at the end of its grid, and
     /// that of a sweep at its largest ε for the fastest mode of the network. Returns doubts.
-    pub(super) fn steps(&self, study: &Study, node: &Node) -> Result<Vec<Warning>> {
+    pub(super) fn steps(&self, study: &Study) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
         let step = study.msf.times.step;
-        if let Some(steps) = self.linear_steps(node, step) {
+        if let Some(steps) = self.linear_steps(study, step) {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
@@ -39,16 +39,16 @@ impl Checker<'_> {
         }
         match &study.sweep {
             Some(sweep) if sweep.method == Method::Rk4 => {
-                doubts.extend(self.sweep_step((study, node), sweep)?);
+                doubts.extend(self.sweep_step(study, sweep)?);
             }
             _ => {}
         }
         Ok(doubts)
     }
 
-    fn sweep_step(&self, (study, node): (&Study, &Node), sweep: &Sweep) -> Result<Option<Warning>> {
+    fn sweep_step(&self, study: &Study, sweep: &Sweep) -> Result<Option<Warning>> {
         let step = sweep.schedule.step;
-        let Some(steps) = self.linear_steps(node, step) else { return Ok(None) };
+        let Some(steps) = self.linear_steps(study, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
         let diagonal = study.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
@@ -70,9 +70,12 @@ impl Checker<'_> {
         self.judge(&steps, &of_sweep)
     }
 
-    /// None for an orbit that escapes by itself, which the run will say.
-    fn linear_steps(&self, node: &Node, step: f64) -> Option<LinearSteps> {
-        LinearSteps::along_orbit(&node.model, &node.coupling, step, self.experiment.seed).ok()
+    /// None for a map, and for an orbit that escapes by itself, which the run will say.
+    fn linear_steps(&self, study: &Study, step: f64) -> Option<LinearSteps> {
+        let msf::Node { dynamics, coupling } = &study.node;
+        let seed = self.experiment.seed;
+        let along = || LinearSteps::along_orbit(dynamics.as_ref(), coupling, step, seed).ok();
+        (!dynamics.is_map()).then(along).flatten()
     }
 
     /// Refuses a step at which RK4 makes deviations grow that the equations damp: the end of a stable

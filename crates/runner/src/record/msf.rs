@@ -22,6 +22,11 @@ pub struct MsfRecord {
     pub rests: Vec<usize>,
     /// The σ between which was looked; Λ(0) is known besides.
     pub looked: [f64; 2],
+    /// How many σ were looked at between those of the grid, where a window might have been missed.
+    pub looked_between: usize,
+    /// Gaps in which Λ comes so near zero that a window may still be hidden.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubtful: Vec<[f64; 2]>,
     /// Stable intervals of σ, [from, to]; no upper end where the look ends stable.
     pub stable: Vec<(f64, Option<f64>)>,
     /// What the ends of these intervals are.
@@ -150,6 +155,8 @@ pub fn msf_record(msf: &MasterStability) -> MsfRecord {
         isolated_state: word(msf.state),
         rests: msf.rests.clone(),
         looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
+        looked_between: msf.between,
+        doubtful: msf.doubtful.clone(),
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
         stable_ends: ends(&msf.stable),
         attractors: msf.attractors.iter().map(attractor_record).collect(),
