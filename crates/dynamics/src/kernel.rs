@@ -57,7 +57,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         let points = (0..n_points * n_components).map(|k| Aligned::zeros(length(k % n_components)));
         let strength = |&Gain { equation, channel, weight }: &Gain| {
             let of = std::array::from_fn(|number| replicas[number % L].epsilon * weight);
-            Strength { equation, channel, of, of_runs: vec![of; RUNS] }
+            Strength { equation, channel, of: vec![of; RUNS] }
         };
         let mut network = Self {
             dynamics,

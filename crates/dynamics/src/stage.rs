@@ -49,9 +49,8 @@ pub struct Stage<'a, 'b> {
 pub(crate) struct Strength {
     pub(crate) equation: usize,
     pub(crate) channel: usize,
-    pub(crate) of: Tile,
-    /// The same of as many tiles as a stage has, beside which a loop over plain numbers can go.
-    pub(crate) of_runs: Vec<Tile>,
+    /// The same in as many tiles as a stage has, beside which a loop over plain numbers can go.
+    pub(crate) of: Vec<Tile>,
 }
 
 /// x(t + h) from the points and the slope at the last of them.

@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::orbits::Orbits;
-use crate::trial;
+use crate::trial::{self, Trial};
 use experiment::spec::{FigureKind, MatrixKind};
 use experiment::{Memory, Plan};
 use user::text::one_line;
@@ -112,11 +112,12 @@ pub fn describe(plan: &Plan) -> String {
             ),
         );
     }
-    line("orbits", Orbits::of(plan).to_string());
+    let msf = trial::of_msf(plan);
+    line("orbits", Orbits::of(plan, msf).to_string());
     line("figure", figure(plan));
     line("claims", plan.claims.len().to_string());
     line("memory", format!("about {}", Memory::of(plan)));
-    line("cost", Cost::of(plan).words());
+    line("cost", Cost::of(plan, msf).words());
     for warning in doubts(plan).iter().chain(&plan.doubts) {
         line("warning", warning.message.clone());
     }
@@ -164,9 +165,8 @@ struct Cost {
 }
 
 impl Cost {
-    fn of(plan: &Plan) -> Self {
+    fn of(plan: &Plan, msf: Trial) -> Self {
         let threads = rayon::current_num_threads();
-        let msf = trial::of_msf(plan);
         let (mut seconds, mut notes) = (msf.seconds, Vec::new());
         if msf.escaped {
             notes.push("the orbit of the msf escapes at once: no time can be told");
@@ -231,6 +231,7 @@ struct CheckedNetwork {
 impl Checked {
     /// Of a plan, after a short trial.
     pub fn of(plan: &Plan) -> Self {
+        let msf = trial::of_msf(plan);
         let network = &plan.study.network;
         Self {
             id: plan.id.clone(),
@@ -249,8 +250,8 @@ impl Checked {
             claims: plan.claims.len(),
             figure_without: drawing::foreseen(plan),
             memory_bytes: Memory::of(plan).bytes(),
-            orbits: Orbits::of(plan),
-            cost: Cost::of(plan),
+            orbits: Orbits::of(plan, msf),
+            cost: Cost::of(plan, msf),
             warnings: [doubts(plan), plan.doubts.clone()].concat(),
         }
     }

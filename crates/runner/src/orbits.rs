@@ -9,7 +9,7 @@ use experiment::Plan;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::trial;
+use crate::trial::{self, Trial};
 
 /// Orbits, from initial states of their own.
 const ORBITS: u64 = 64;
@@ -30,8 +30,8 @@ pub struct Orbits {
 }
 
 impl Orbits {
-    /// Those of a plan.
-    pub fn of(plan: &Plan) -> Self {
+    /// Those of a plan, of whose exponents there was a trial.
+    pub fn of(plan: &Plan, msf: Trial) -> Self {
         let (node, times) = (&plan.study.node, &plan.study.msf.times);
         let time = (times.transient + times.average).min(STEPS * times.step);
         let end = |seed: u64| {
@@ -47,7 +47,7 @@ impl Orbits {
             time,
             escaped: escapes.len(),
             first_escape: escapes.iter().copied().reduce(f64::min),
-            isolated_seconds: trial::of_isolated(plan),
+            isolated_seconds: trial::of_isolated(plan, msf),
         }
     }
 }

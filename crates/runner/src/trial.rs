@@ -35,10 +35,10 @@ pub struct Trial {
     pub escaped: bool,
 }
 
-/// Seconds of Λ(0) by itself, on one thread.
-pub fn of_isolated(plan: &Plan) -> f64 {
+/// Seconds of Λ(0) by itself, on one thread, of those of the whole function.
+pub fn of_isolated(plan: &Plan, msf: Trial) -> f64 {
     let orbits = msf::ISOLATED_ORBITS as f64 / plan.study.msf_steps() as f64;
-    of_msf(plan).seconds * orbits * plan.study.msf.times.steps() as f64
+    msf.seconds * orbits * plan.study.msf.times.steps() as f64
 }
 
 /// Of all tangent vectors that the master stability function takes.

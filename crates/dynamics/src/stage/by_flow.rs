@@ -32,9 +32,9 @@ impl Work for FromSlopes<'_, '_, '_> {
     fn run(self) {
         let Stage { point, h, gains, inputs, points, runs, slopes } = self.stage;
         let n = slopes.len();
-        for Strength { equation, channel, of_runs, .. } in *gains {
+        for Strength { equation, channel, of } in *gains {
             let slope = slopes[*equation][..runs.len()].as_flattened_mut();
-            let of = &of_runs.as_flattened()[..slope.len()];
+            let of = &of.as_flattened()[..slope.len()];
             let input = &inputs[*channel].as_flattened()[..slope.len()];
             for number in 0..slope.len() {
                 slope[number] += of[number] * input[number];

@@ -47,12 +47,12 @@ impl<O: Oscillator<D>, const D: usize> Fused<'_, '_, '_, O, D> {
         match gains {
             // Most couplings have one entry, which is then known before the first run.
             [gain] => {
-                let gain = [(gain.equation, &inputs[gain.channel], &gain.of)];
+                let gain = [(gain.equation, &inputs[gain.channel], &gain.of[0])];
                 points.evaluate::<O, POINT>(oscillator, h, &gain);
             }
             _ => {
                 let gains: Vec<_> =
-                    gains.iter().map(|g| (g.equation, &inputs[g.channel], &g.of)).collect();
+                    gains.iter().map(|g| (g.equation, &inputs[g.channel], &g.of[0])).collect();
                 points.evaluate::<O, POINT>(oscillator, h, &gains);
             }
         }

@@ -269,16 +269,12 @@ impl Checker<'_> {
             return Err(self.problem("coupling.function", "is empty, which couples nothing"));
         }
         self.parameters("coupling.parameters", &spec.parameters)?;
-        let texts = |names: &'_ IndexMap<String, String>| -> Vec<(String, String)> {
-            names.iter().map(|(name, text)| (name.clone(), text.clone())).collect()
-        };
-        let (equations, subexpressions) = (texts(function), texts(&spec.subexpressions));
         let parameters = self.experiment.oscillator.parameters().iter().chain(&spec.parameters);
         let description = Description {
             kind: Kind::Coupling,
             components: dynamics.components()[..dynamics.n_free()].to_vec(),
-            equations: borrowed(&equations),
-            subexpressions: borrowed(&subexpressions),
+            equations: pairs(function),
+            subexpressions: pairs(&spec.subexpressions),
             parameters: parameters.map(|(name, value)| (name.as_str(), *value)).collect(),
         };
         System::read(&description)
@@ -312,7 +308,7 @@ impl Checker<'_> {
     }
 }
 
-fn borrowed(texts: &[(String, String)]) -> Vec<(&str, &str)> {
+fn pairs(texts: &IndexMap<String, String>) -> Vec<(&str, &str)> {
     texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect()
 }
 

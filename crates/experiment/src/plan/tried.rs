@@ -147,28 +147,34 @@ fn in_words(dynamics: &dyn NodeDynamics, state: &[f64]) -> String {
 type Outputs = Vec<[Vec<f64>; 2]>;
 
 fn evaluated(node: &Node, states: &[Vec<f64>]) -> (Outputs, Outputs) {
-    let dynamics = node.dynamics();
-    let (n, count) = (states.len(), states[0].len());
-    let tangent: Vec<Vec<f64>> =
-        (0..n).map(|c| vec![f64::from(u8::from(c < dynamics.n_free())); count]).collect();
-    let value: Vec<&[f64]> = states.iter().map(Vec::as_slice).collect();
-    let tangent: Vec<&[f64]> = tangent.iter().map(Vec::as_slice).collect();
-    let (at, set) = (Linearised { value: &value, tangent: &tangent }, InstructionSet::best());
-    let outputs = |n: usize, of: &dyn Fn(LinearisedMut<'_, '_>)| {
-        let mut outputs = vec![[vec![0.0; count], vec![0.0; count]]; n];
-        let (mut value, mut tangent) = (Vec::new(), Vec::new());
-        for [of_value, of_tangent] in &mut outputs {
-            value.push(of_value.as_mut_slice());
-            tangent.push(of_tangent.as_mut_slice());
-        }
-        of(LinearisedMut { value: &mut value, tangent: &mut tangent });
-        outputs
-    };
-    let coupling = &node.equations.coupling;
+    let (dynamics, coupling) = (node.dynamics(), &node.equations.coupling);
+    let along = |c: usize| vec![f64::from(u8::from(c < dynamics.n_free())); states[0].len()];
+    let tangents: Vec<Vec<f64>> = (0..states.len()).map(along).collect();
+    let set = InstructionSet::best();
     (
-        outputs(n, &|to| dynamics.tangent_flow(set, at, to)),
-        outputs(coupling.n_channels(), &|to| coupling.send(set, at, to)),
+        outputs(states.len(), (states, &tangents), |at, to| dynamics.tangent_flow(set, at, to)),
+        outputs(coupling.n_channels(), (states, &tangents), |at, to| coupling.send(set, at, to)),
     )
+}
+
+/// So many outputs of states with their tangents, component by component.
+fn outputs(
+    n: usize,
+    (states, tangents): (&[Vec<f64>], &[Vec<f64>]),
+    of: impl FnOnce(Linearised<'_>, LinearisedMut<'_, '_>),
+) -> Outputs {
+    let count = states[0].len();
+    let mut outputs = vec![[vec![0.0; count], vec![0.0; count]]; n];
+    let (mut value, mut tangent) = (Vec::new(), Vec::new());
+    for [of_value, of_tangent] in &mut outputs {
+        value.push(of_value.as_mut_slice());
+        tangent.push(of_tangent.as_mut_slice());
+    }
+    let [states, tangents] =
+        [states, tangents].map(|rows| rows.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    let at = Linearised { value: &states, tangent: &tangents };
+    of(at, LinearisedMut { value: &mut value, tangent: &mut tangent });
+    outputs
 }
 
 /// What is doubtful about a flow that jumps on the way of an orbit: in a step it changes by more than its
@@ -187,25 +193,15 @@ fn jump(dynamics: &dyn NodeDynamics, orbit: &[Vec<f64>], step: f64) -> Option<St
         steps.chain([0.0]).collect::<Vec<f64>>()
     };
     let tangents: Vec<Vec<f64>> = values.iter().map(along).collect();
-    let mut outputs = [values.clone(), values.clone()];
-    let [slopes, changes] = &mut outputs;
-    dynamics.tangent_flow(
-        InstructionSet::best(),
-        Linearised {
-            value: &values.iter().map(Vec::as_slice).collect::<Vec<_>>(),
-            tangent: &tangents.iter().map(Vec::as_slice).collect::<Vec<_>>(),
-        },
-        LinearisedMut {
-            value: &mut slopes.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
-            tangent: &mut changes.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
-        },
-    );
-    let size = |at: usize| slopes.iter().map(|slope| slope[at].powi(2)).sum::<f64>().sqrt();
+    let flow = outputs(n, (&values, &tangents), |at, to| {
+        dynamics.tangent_flow(InstructionSet::best(), at, to);
+    });
+    let size = |at: usize| flow.iter().map(|[slope, _]| slope[at].powi(2)).sum::<f64>().sqrt();
     let typical = (0..orbit.len()).map(size).sum::<f64>() / orbit.len() as f64;
     let jumps = |at: &usize| {
-        let unexplained = (0..n).map(|c| {
-            let told = 0.5 * (changes[c][*at] + changes[c][at + 1]);
-            (slopes[c][at + 1] - slopes[c][*at] - told).powi(2)
+        let unexplained = flow.iter().map(|[slope, change]| {
+            let told = 0.5 * (change[*at] + change[at + 1]);
+            (slope[at + 1] - slope[*at] - told).powi(2)
         });
         unexplained.sum::<f64>().sqrt() > JUMP * (size(*at).max(size(at + 1)).max(typical))
     };
