@@ -12,10 +12,12 @@
 //! Source: E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), Sec. IV.2. The
 //! Jacobians are frozen over a step, which is what a stiff direction sees.
 
-use nalgebra::{Complex, DMatrix, Schur};
+use nalgebra::{Complex, DMatrix};
 
 use crate::isolated_orbit::IsolatedOrbit;
-use crate::{Coupling, DynamicsError, InstructionSet, Linearised, LinearisedMut, NodeDynamics};
+use crate::jacobians::Jacobians;
+use crate::small_eigenvalues::{eigenvalues, largest};
+use crate::{Coupling, DynamicsError, NodeDynamics};
 
 /// The orbit is followed with the step in question divided by this.
 const FINER: f64 = 4.0;
@@ -25,10 +27,6 @@ const TRANSIENT: u32 = 40_000;
 const SAMPLES: usize = 250;
 /// Steps from one to the next.
 const STRIDE: u32 = 400;
-/// Entries of Jacobians beyond this are beyond any step.
-const HUGE: f64 = 1e100;
-/// Sweeps of the QR algorithm; a few for each eigenvalue are usual.
-const MOST_SWEEPS: usize = 10_000;
 /// How far the rate of the leading direction may be off, relatively, before it is worth a word.
 const ACCURATE: f64 = 0.1;
 
@@ -144,19 +142,15 @@ impl LinearSteps {
 
     /// Eigenvalues of DF − σ DH, one Jacobian after the other.
     fn rates(&self, sigma: f64) -> impl Iterator<Item = Vec<Complex<f64>>> {
-        self.jacobians.iter().map(move |[df, dh]| eigenvalues(df - dh * sigma))
+        self.jacobians.iter().map(move |[df, dh]| rates_of(df - dh * sigma))
     }
 }
 
-/// Eigenvalues of a small matrix. Of one that is too large for its squares to be numbers, a single rate
-/// of its size, which no step can follow.
-fn eigenvalues(a: DMatrix<f64>) -> Vec<Complex<f64>> {
-    let size = a.iter().fold(0.0f64, |size, entry| size.max(entry.abs()));
-    let schur = (size < HUGE).then(|| Schur::try_new(a, f64::EPSILON, MOST_SWEEPS)).flatten();
-    match schur {
-        Some(schur) => schur.complex_eigenvalues().iter().copied().collect(),
-        None => vec![Complex::new(-size, 0.0)],
-    }
+/// Eigenvalues of a Jacobian. Of one that is too large for its squares to be numbers, a single rate of
+/// its size, which no step can follow.
+fn rates_of(a: DMatrix<f64>) -> Vec<Complex<f64>> {
+    let size = largest(&a);
+    eigenvalues(a).unwrap_or_else(|| vec![Complex::new(-size, 0.0)])
 }
 
 /// |R(z)|.
@@ -165,40 +159,14 @@ fn growth(z: Complex<f64>) -> f64 {
     (one + z * (one + z * (one / 2.0 + z * (one / 6.0 + z / 24.0)))).norm()
 }
 
-/// DF and DH at a state, column by column from the tangents along the axes. A clock is not perturbed and
-/// has neither row nor column.
+/// DF and DH at a state.
 fn jacobians_at(
     (dynamics, coupling): (&dyn NodeDynamics, &Coupling),
     state: &[f64],
 ) -> [DMatrix<f64>; 2] {
-    let (n, n_free, set) = (state.len(), dynamics.n_free(), InstructionSet::Baseline);
-    let values: Vec<Vec<f64>> = state.iter().map(|&x| vec![x; n]).collect();
-    let axes = DMatrix::<f64>::identity(n, n);
-    let (value, tangent) = (by_rows(&values), axes.as_slice().chunks(n).collect::<Vec<_>>());
-    let at = Linearised { value: &value, tangent: &tangent };
-    let columns = |n_rows: usize, of: &dyn Fn(LinearisedMut<'_, '_>)| {
-        let (mut values, mut columns) = (vec![vec![0.0; n]; n_rows], vec![vec![0.0; n]; n_rows]);
-        let (mut to, mut to_tangent) = (by_rows_mut(&mut values), by_rows_mut(&mut columns));
-        of(LinearisedMut { value: &mut to, tangent: &mut to_tangent });
-        columns
-    };
-    let df = columns(n, &|to| dynamics.tangent_flow(set, at, to));
-    let dh = columns(coupling.n_channels(), &|to| coupling.send(set, at, to));
-    let mut b_dh = DMatrix::zeros(n_free, n_free);
-    for gain in coupling.gains() {
-        for column in 0..n_free {
-            b_dh[(gain.equation, column)] += gain.weight * dh[gain.channel][column];
-        }
-    }
-    [DMatrix::from_fn(n_free, n_free, |row, column| df[row][column]), b_dh]
-}
-
-fn by_rows(rows: &[Vec<f64>]) -> Vec<&[f64]> {
-    rows.iter().map(Vec::as_slice).collect()
-}
-
-fn by_rows_mut(rows: &mut [Vec<f64>]) -> Vec<&mut [f64]> {
-    rows.iter_mut().map(Vec::as_mut_slice).collect()
+    let df = Jacobians::of_flow(dynamics, state);
+    let dh = Jacobians::of_coupling(dynamics, coupling, state);
+    [df.matrix(0), &dh].map(|rows| DMatrix::from_row_slice(df.n_free, df.n_free, rows))
 }
 
 #[cfg(test)]
