@@ -11,6 +11,7 @@
 mod aligned;
 mod batches;
 mod block_means;
+mod closed_orbits;
 mod coupling;
 mod differences;
 mod error;
@@ -52,6 +53,7 @@ mod tile;
 mod trace;
 mod within;
 
+pub use closed_orbits::{ClosedOrbit, Closes, Settled, closed_orbits};
 pub use coupling::{Coupling, Gain};
 pub use error::{DynamicsError, ESCAPE_RADIUS};
 pub use instruction_set::{InstructionSet, Work};
