@@ -16,12 +16,11 @@ use serde_json::{Value, json};
 use toml::toml;
 
 use crate::begun::Begun;
-use crate::options::{NodeArgs, SIGMA_POINTS, table, text};
+use crate::options::{NodeArgs, table, text};
 use crate::output::{document, say, tell};
 use crate::run::seconds;
 use crate::signals;
 use experiment::{Plan, Text, plan_of};
-use journal::Journal;
 use results_folder::Folder;
 use runner::provenance::{Provenance, known_by};
 use runner::record::{LAYOUT, MsfRecord, msf_record};
@@ -39,8 +38,8 @@ const ROWS: usize = 17;
 pub struct Args {
     #[command(flatten)]
     node: NodeArgs,
-    /// Where to look, and at how many points: `0:16:65`. By default from 0 on, as far as a first look
-    /// finds changes of stability
+    /// Where to look, and at how many points: `0:16:65`. By default from 0 as far as the step goes,
+    /// finer where a window may be hidden
     #[arg(long, value_name = "FROM:TO:POINTS", value_parser = grid)]
     sigma: Option<(f64, f64, u32)>,
     /// Step of the integrator, in model time units
@@ -87,7 +86,7 @@ pub fn run(args: &Args) -> Result<()> {
     let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let mut place = Some(place);
     let computed = || {
-        let plan = plan(args, &id, &stages, &journal)?;
+        let plan = plan(args, &id, &stages)?;
         let work = Work { plan: &plan, journal: &journal, stages: &stages };
         let (msf, mut warnings) = findings::curve(&work)?;
         let place = place.take().expect("results are written once");
@@ -128,15 +127,13 @@ fn id(node: &NodeArgs) -> String {
     text.chars().map(|c| if c.is_alphanumeric() || "_=.+-".contains(c) { c } else { '-' }).collect()
 }
 
-fn plan(args: &Args, id: &str, stages: &Stages, journal: &Journal) -> Result<Plan> {
+fn plan(args: &Args, id: &str, stages: &Stages) -> Result<Plan> {
     let node = args.node.tables()?;
-    let (low, high, points) = match args.sigma {
-        Some((low, high, points)) => (low, high, points.into()),
-        None => (0.0, node.reach(stages, journal)?, SIGMA_POINTS),
-    };
-    let sigma = [("from", low.into()), ("to", high.into()), ("points", points.into())];
     let mut msf = toml::Table::new();
-    msf.insert("sigma".into(), table(sigma));
+    if let Some((low, high, points)) = args.sigma {
+        let sigma = [("from", low.into()), ("to", high.into()), ("points", points.into())];
+        msf.insert("sigma".into(), table(sigma));
+    }
     msf.insert("average".into(), args.average.into());
     msf.extend(args.step.map(|step| ("step".to_owned(), step.into())));
     let mut document = toml! {
@@ -198,18 +195,11 @@ fn draw(
 
 fn said(plan: &Plan, msf: &MasterStability) -> String {
     let mut text = format!("{}\n\n", plan.title);
-    let (first, last) = (msf.sigma[0], msf.sigma[msf.sigma.len() - 1]);
-    let looked = format!(
-        "{} values of sigma, {} to {}",
-        msf.sigma.len(),
-        four_digits(first),
-        four_digits(last)
-    );
     for (name, value) in [
         ("isolated", overview::isolated(msf)),
         ("stable for", overview::stable(msf)),
         ("zeros", zeros(msf)),
-        ("looked at", looked),
+        ("looked at", overview::looked_at(&msf.looked)),
     ] {
         text.push_str(&format!("{name:<12} {value}\n"));
     }

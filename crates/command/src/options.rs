@@ -5,15 +5,8 @@ use std::path::Path;
 use toml::{Table, Value};
 
 use experiment::{Node, load};
-use journal::Journal;
-use runner::computed;
 use user::text::shown;
-use user::{Problem, Result, Stages, nearest};
-
-/// Points of the curve Λ(σ).
-pub const SIGMA_POINTS: i64 = 65;
-/// Step of the first look at Λ.
-const STEP: f64 = 0.01;
+use user::{Problem, Result, nearest};
 
 /// An oscillator and its coupling on the command line.
 #[derive(clap::Args)]
@@ -63,13 +56,6 @@ impl NodeArgs {
 }
 
 impl NodeTables {
-    /// How far the curve of Λ must reach, by a first look.
-    pub fn reach(&self, stages: &Stages, journal: &Journal) -> Result<f64> {
-        let times = computed::first_look(self.node.dynamics().is_map(), STEP);
-        computed::reach(&self.node, &times, stages, journal)
-            .map_err(|error| Problem::from_error("the master stability function", error))
-    }
-
     /// `[coupling]` with a coupling matrix.
     pub fn coupling(&self, matrix: &str) -> Value {
         let mut coupling = Table::from_iter([("matrix".to_owned(), matrix.into())]);

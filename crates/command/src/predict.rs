@@ -12,14 +12,13 @@ use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
 use crate::begun::Begun;
-use crate::options::{NodeArgs, NodeTables, SIGMA_POINTS, table, text};
+use crate::options::{NodeArgs, NodeTables, table, text};
 use crate::output::{document as print_document, say, tell};
 use crate::run::seconds;
 use crate::signals;
 use experiment::load;
 use experiment::spec::{Experiment, Format, MatrixKind};
 use experiment::{Plan, Text, plan_of};
-use journal::Journal;
 use results_folder::{STANDARD_INPUT, id};
 use runner::computed::Curves;
 use runner::{Work, findings, overview, results};
@@ -149,7 +148,7 @@ pub fn run(args: &Args) -> Result<()> {
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
     let predicted = || {
-        let plan = plan(args, (document, &node), &input, (&origin.file, &id, &stages, &journal))?;
+        let plan = plan(args, document, &input, (&origin.file, &id, &stages))?;
         let work = Work { plan: &plan, journal: &journal, stages: &stages };
         let found = findings::find(&work, &mut Curves::default())
             .map_err(|problem| problem.renamed(&plan.file, &input.named))?;
@@ -174,20 +173,15 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// The plan of the experiment file, with the curve's reach, which takes a first look at Λ.
+/// The plan of the experiment file, which leaves open where Λ is looked at.
 fn plan(
     args: &Args,
-    (mut document, node): (Table, &NodeTables),
+    mut document: Table,
     input: &Input,
-    (origin, id, stages, journal): (&Path, &str, &Stages, &Journal),
+    (origin, id, stages): (&Path, &str, &Stages),
 ) -> Result<Plan> {
     let file = input.file.with_extension("toml");
-    let sigma = table([
-        ("from", 0.0.into()),
-        ("to", node.reach(stages, journal)?.into()),
-        ("points", SIGMA_POINTS.into()),
-    ]);
-    document.insert("msf".into(), table([("sigma", sigma), ("average", 4e4.into())]));
+    document.insert("msf".into(), table([("average", 4e4.into())]));
     let asked = text(&document)?;
     let text = Text { text: &asked, id, file: &file, network: input.given.clone() };
     let plan = plan_of(&text, args.quick, stages);

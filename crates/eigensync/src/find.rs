@@ -8,7 +8,7 @@ use msf::{MasterStability, Stability, StableRegion};
 use rayon::prelude::*;
 use spectra::Spectrum;
 
-use crate::compute::{Plainly, not_curve, told};
+use crate::compute::Plainly;
 use crate::numbers::{four_digits, plain, two_digits};
 use crate::synchrony::{Evidence, assumed_above};
 use crate::{
@@ -26,11 +26,6 @@ const LEAST_LISTED: usize = 2;
 /// The largest residual, relative to the eigenvalue, that leaves this certain.
 const CERTAIN: f64 = 0.1;
 
-/// Times of a first look at Λ(σ), where nobody says how far to look.
-const FIRST_LOOK: dynamics::lyapunov::Times =
-    dynamics::lyapunov::Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
-const POINTS: u32 = 121;
-
 /// Answers a study: predicts, and simulates where it asks for that.
 ///
 /// Runs on the current rayon pool; the result does not depend on the number of threads.
@@ -38,17 +33,6 @@ const POINTS: u32 = 121;
 /// # Errors
 /// What cannot be computed; [`Error::Cancelled`] when the observer wanted to stop.
 pub fn find(study: &Study, observer: &dyn Observer) -> Result<Findings, Error> {
-    let mut looked;
-    let mut study = study;
-    if study.msf.sigma.is_empty() {
-        observer.begins("first look at the msf", Some(16 * FIRST_LOOK.steps()));
-        let advanced = |steps| told(observer, steps);
-        let to = msf::reach(&study.node, &FIRST_LOOK, study.seed, &advanced).map_err(not_curve)?;
-        looked = study.clone();
-        let sigma = |k: u32| to * f64::from(k) / f64::from(POINTS - 1);
-        looked.msf.sigma = (0..POINTS).map(sigma).collect();
-        study = &looked;
-    }
     find_by(study, &[], &Plainly(observer))
 }
 
@@ -97,7 +81,7 @@ pub fn find_by<C: Compute>(
     let fastest = fastest(study, &spectrum, stable, &mut warnings);
     let assumed_above = assumed_above(stable, fastest.unwrap_or_else(|| strongest(study)));
     if let Some(above) = assumed_above {
-        let looked = four_digits(msf.sigma[msf.sigma.len() - 1]);
+        let looked = four_digits(msf.looked.to);
         let above = four_digits(above);
         let message = format!(
             "nothing was looked at beyond σ = {looked}: above epsilon = {above} some modes are there, \
@@ -105,7 +89,7 @@ pub fn find_by<C: Compute>(
         );
         warnings.add("cascade", message);
     }
-    let stability = prediction::stability(stable, msf.sigma[0], &spectrum, fastest)?;
+    let stability = prediction::stability(stable, msf.looked.from, &spectrum, fastest)?;
     if let Some(top) = stability.decided.to {
         warnings.add("cascade", beyond(study, spectrum.n_modes(), top));
     }
@@ -116,7 +100,7 @@ pub fn find_by<C: Compute>(
         fastest,
         n_components: study.n_components,
         n_rests: msf.rests.len(),
-        looked: &msf.sigma,
+        looked: msf.looked,
         assumed_above,
     });
     let Stability { transitions, stretches, .. } = stability;

@@ -1,5 +1,8 @@
 //! Numbers in words, with as many digits as mean something.
 
+/// Relative errors below this are not said.
+const EXACT: f64 = 1e-7;
+
 /// A number as people write it, whatever its size.
 pub fn plain(number: f64) -> String {
     let size = number.abs();
@@ -48,14 +51,28 @@ fn written(number: f64) -> String {
     }
 }
 
-/// A number with its standard error.
+/// A number with six significant digits.
+pub fn six_digits(number: f64) -> String {
+    written(format!("{number:.5e}").parse::<f64>().unwrap_or(number))
+}
+
+/// A number with its standard error; six digits alone where these are beyond doubt.
 pub fn with_error(value: f64, error: f64) -> String {
+    if error <= EXACT * value.abs() {
+        return six_digits(value);
+    }
     format!("{} ± {}", four_digits(value), two_digits(error))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_error_that_no_digit_shows_is_not_said() {
+        assert_eq!(with_error(1.678_754_3, 2e-11), "1.67875");
+        assert_eq!(with_error(8.1723, 0.0123), "8.172 ± 0.012");
+    }
 
     #[test]
     fn numbers_of_any_size_are_short() {

@@ -24,7 +24,7 @@ pub struct Study {
     pub matrix: CouplingMatrix,
     /// F and H.
     pub node: Node,
-    /// How Λ(σ) is computed. Without any σ the grid is chosen: see [`Study::new`].
+    /// How Λ(σ) is computed. Without any σ it is looked at as far as the step goes.
     pub msf: msf::Request,
     /// Which modes, by which solver.
     pub modes: WantedModes,
@@ -73,7 +73,7 @@ pub struct Sweep {
 }
 
 impl Study {
-    /// A study with the defaults: Λ(σ) from 121 points to twice the last change of its sign, all modes
+    /// A study with the defaults: Λ(σ) looked at as far as the step goes, all modes
     /// up to 5000 nodes, exact clusters, no simulation.
     pub fn new(network: Network, normalization: Normalization, node: Node) -> Self {
         let n_components = network.components().len();

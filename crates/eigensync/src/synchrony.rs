@@ -6,7 +6,7 @@
 //! and all oscillators come to rest in the same state; where these differ, a verdict is of nodes in the
 //! same one.
 
-use msf::{End, Interval, Stability, StableRegion, coupling_at, transition_at};
+use msf::{End, Interval, Looked, Stability, StableRegion, coupling_at, transition_at};
 use serde::Serialize;
 
 use crate::numbers::{four_digits, three_digits, two_digits};
@@ -48,8 +48,8 @@ pub struct Evidence<'a> {
     pub n_components: usize,
     /// In how many different states isolated oscillators come to rest; 0 where they do not.
     pub n_rests: usize,
-    /// The σ that were looked at, ascending.
-    pub looked: &'a [f64],
+    /// How far and how finely Λ was looked at.
+    pub looked: Looked,
     /// As [`assumed_above`] has it.
     pub assumed_above: Option<f64>,
 }
@@ -112,7 +112,7 @@ impl Evidence<'_> {
     /// What a verdict takes for granted: that σ beyond the look are stable.
     fn assumption(&self, ranges: &[EpsilonRange]) -> String {
         let Some(above) = self.assumed_above else { return String::new() };
-        let looked = four_digits(self.looked.last().copied().unwrap_or_default());
+        let looked = four_digits(self.looked.to);
         match ranges.last() {
             Some(range) if range.to.is_none() && above <= range.from => {
                 format!(", if σ beyond {looked}, where nothing was looked at, are stable")
@@ -129,7 +129,7 @@ impl Evidence<'_> {
         let at_rest = self.stable.contains(0.0);
         let never = |why: String| format!("no ε synchronises all nodes: {why}");
         if self.stable.intervals.is_empty() {
-            return never(format!("of {} none was found stable", looked(self.looked)));
+            return never(format!("of {} none was found stable", looked(&self.looked)));
         }
         if self.n_components > 1 && !at_rest {
             return never(format!("the network has {} components", self.n_components));
@@ -180,9 +180,9 @@ impl EpsilonRange {
 }
 
 /// From where to where and at how many σ was looked, in words.
-pub fn looked(sigma: &[f64]) -> String {
-    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
-    format!("{} sigma from {from} to {to}", sigma.len())
+pub fn looked(looked: &Looked) -> String {
+    let [from, to] = [looked.from, looked.to].map(four_digits);
+    format!("{} sigma from {from} to {to}", looked.points)
 }
 
 /// σ₂ / σ₁ of an interval; none where it is infinite or not known.
@@ -223,10 +223,10 @@ mod tests {
         // No error but that of zeros is to be told.
         spectrum.eigenspaces.iter_mut().for_each(|space| space.residuals.fill(0.0));
         let stable = StableRegion { intervals };
-        let looked = [0.0, 20.0, 50.0];
+        let looked = Looked { from: 0.0, to: 50.0, points: 3, ..Looked::default() };
         let eigenvalues = spectrum.real_eigenvalues();
         let fastest = eigenvalues.last().copied();
-        let stability = prediction::stability(&stable, looked[0], &spectrum, fastest).unwrap();
+        let stability = prediction::stability(&stable, looked.from, &spectrum, fastest).unwrap();
         let evidence = Evidence {
             stable: &stable,
             stability: &stability,
@@ -234,7 +234,7 @@ mod tests {
             fastest,
             n_components,
             n_rests,
-            looked: &looked,
+            looked,
             assumed_above: assumed_above(&stable, fastest.unwrap_or_default()),
         };
         Synchrony::of(&evidence).verdict

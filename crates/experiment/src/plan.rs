@@ -244,8 +244,11 @@ impl Checker<'_> {
         let spec = &self.experiment.msf;
         let step = self.step("msf.step", spec.step, dynamics)?;
         let renormalise = spec.renormalise.unwrap_or(if dynamics.is_map() { 1.0 } else { 0.5 });
-        let sigma = self.grid("msf.sigma", &spec.sigma, 2)?;
-        self.not_negative("msf.sigma", sigma[0])?;
+        let sigma = match &spec.sigma {
+            Some(grid) => self.grid("msf.sigma", grid, 2)?,
+            None => Vec::new(),
+        };
+        self.not_negative("msf.sigma", sigma.first().copied().unwrap_or(0.0))?;
         self.not_negative("msf.transient", spec.transient)?;
         self.positive("msf.average", spec.average)?;
         self.positive("msf.renormalise", renormalise)?;

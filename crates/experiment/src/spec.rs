@@ -92,8 +92,9 @@ pub struct SpectrumSpec {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MsfSpec {
-    /// Values of the generic coupling strength σ, from zero or above.
-    pub sigma: Grid,
+    /// Values of the generic coupling strength σ, from zero or above; left out, Λ is looked at as far as the
+    /// step goes.
+    pub sigma: Option<Grid>,
     /// Step of the integrator, 0.01 where it is left out; of a map 1.
     pub step: Option<f64>,
     /// Time before the averages begin.

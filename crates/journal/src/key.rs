@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use crate::Kind;
 
 /// Raised when the payload of a kind changes its form while the program keeps its version.
-const FORM: u32 = 2;
+const FORM: u32 = 3;
 
 /// The key of one piece of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

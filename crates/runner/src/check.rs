@@ -68,16 +68,15 @@ pub fn describe(plan: &Plan) -> String {
         },
     );
     let (times, sigma) = (plan.study.msf.times, &plan.study.msf.sigma);
+    let where_to = match sigma[..] {
+        [first, .., last] => format!("{} values of sigma, {first} to {last}", sigma.len()),
+        _ => "sigma as far as the step goes".to_owned(),
+    };
     line(
         "msf",
         format!(
-            "{} values of sigma, {} to {}; step {}, transient {}, average {}",
-            sigma.len(),
-            sigma[0],
-            sigma[sigma.len() - 1],
-            times.step,
-            times.transient,
-            times.average
+            "{where_to}; step {}, transient {}, average {}",
+            times.step, times.transient, times.average
         ),
     );
     if let Some(sweep) = &plan.study.sweep {

@@ -21,7 +21,6 @@ use spectra::Spectrum;
 use crate::warning;
 use experiment::Node;
 use journal::{Journal, Key, Kind, is_worth_keeping};
-use user::Stages;
 
 use crate::Work;
 
@@ -140,20 +139,6 @@ pub const LOOK_SEED: u64 = 1;
 /// What a first look is known by.
 pub fn look_key(journal: &Journal, node: &Node, times: &Times) -> Key {
     journal.key(Kind::Look, &(node, times, LOOK_SEED))
-}
-
-/// How far the curve must reach, by a first look at powers of two.
-pub fn reach(
-    node: &Node,
-    times: &Times,
-    stages: &Stages,
-    journal: &Journal,
-) -> std::result::Result<f64, msf::MsfError> {
-    let key = look_key(journal, node, times);
-    journal.once((Kind::Look, key), || {
-        let look = |progress: Progress<'_>| msf::reach(&node.equations, times, LOOK_SEED, progress);
-        stages.measured("first look at the msf", 16 * times.steps(), look)
-    })
 }
 
 /// How far the refinement of a zero has come.

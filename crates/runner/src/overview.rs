@@ -5,14 +5,15 @@ mod exactness;
 mod onsets;
 mod words;
 
-use eigensync::numbers::{four_digits, two_digits, with_error};
-use eigensync::{Findings, looked};
+use eigensync::Findings;
+use eigensync::numbers::{four_digits, six_digits, two_digits, with_error};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use msf::{End, Interval, Isolated, MasterStability};
+use dynamics::Closes;
+use msf::{End, Interval, Isolated, Looked, MasterStability};
 use spectra::Verification;
 
 use crate::provenance::peak_memory;
@@ -101,20 +102,45 @@ pub fn isolated(msf: &MasterStability) -> String {
             ),
         },
     };
-    format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error))
+    match msf.closes {
+        Some(closes) => format!("Λ(0) = {}: {}", four_digits(isolated.mean), closed(closes, &says)),
+        None => format!("Λ(0) = {}: {says}", with_error(isolated.mean, isolated.standard_error)),
+    }
+}
+
+/// What an orbit that closes is, and where Λ on it comes from.
+fn closed(closes: Closes, at_rest: &str) -> String {
+    match closes {
+        Closes::AtOnce => format!("{at_rest}; Λ from the eigenvalues there"),
+        Closes::AfterPeriod { period } => {
+            format!("a limit cycle of period {}; Λ from Floquet multipliers", six_digits(period))
+        }
+        Closes::AfterIterations { n: 1 } => format!("{at_rest}; Λ from the eigenvalues there"),
+        Closes::AfterIterations { n } => {
+            format!("a cycle of period {n}; Λ from its multipliers")
+        }
+    }
 }
 
 /// The stable set, and what was looked at.
-pub fn stable(MasterStability { stable, sigma, between, .. }: &MasterStability) -> String {
+pub fn stable(MasterStability { stable, looked, .. }: &MasterStability) -> String {
+    let looked = looked_at(looked);
     if stable.intervals.is_empty() {
-        return format!("none of {}: nothing is predicted to synchronise", looked(sigma));
+        return format!("none of {looked}: nothing is predicted to synchronise");
     }
-    let [from, to] = [sigma[0], sigma[sigma.len() - 1]].map(four_digits);
-    let closer = if *between > 0 { format!(", closer at {between}") } else { String::new() };
-    let looked = format!("looked at from {from} to {to}{closer}");
+    let looked = format!("looked at {looked}");
     let intervals: Vec<String> = stable.intervals.iter().map(interval).collect();
     let beyond = if stable.is_unbounded() { ", and taken to be stable beyond" } else { "" };
     format!("{} ({looked}{beyond})", intervals.join(", "))
+}
+
+/// How far and how finely was looked, and how narrow a window could have been missed.
+pub fn looked_at(Looked { from, to, points, widest_gap, .. }: &Looked) -> String {
+    let [from, to] = [*from, *to].map(four_digits);
+    format!(
+        "{points} sigma from {from} to {to}, where a window narrower than {} % of its sigma could be missed",
+        two_digits(100.0 * widest_gap)
+    )
 }
 
 /// A window of stable σ.

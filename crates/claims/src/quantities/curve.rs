@@ -74,7 +74,7 @@ pub fn couplings_are_unrefined(found: &Found<'_>) -> bool {
 /// at. σ_c is the coupling of λ = −1.
 fn no_edge(found: &Found<'_>, lambda: f64) -> Number {
     let msf = &found.findings.msf;
-    let [first, last] = [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]];
+    let [first, last] = [msf.looked.from, msf.looked.to];
     let [from, to] = [first, last].map(four_digits);
     if msf.stable.intervals.is_empty() {
         let words = format!("nothing is stable from sigma = {from} to {to}");

@@ -237,7 +237,7 @@ fn experiment(atlas: &Atlas, spec: &SystemSpec) -> Experiment {
         parameters: indexmap::IndexMap::new(),
     };
     let msf = MsfSpec {
-        sigma: Grid::List(vec![0.0, 1.0]),
+        sigma: Some(Grid::List(vec![0.0, 1.0])),
         step: spec.step.or(of_library),
         transient: atlas.msf.transient,
         average: spec.average.unwrap_or(atlas.msf.average),

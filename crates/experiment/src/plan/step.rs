@@ -26,12 +26,14 @@ impl Checker<'_> {
     pub(super) fn steps(&self, study: &Study) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
         let step = study.msf.times.step;
-        if let Some(steps) = self.linear_steps(study, step) {
+        if let Some(&last) = study.msf.sigma.last()
+            && let Some(steps) = self.linear_steps(study, step)
+        {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
                 step,
-                sigma: study.msf.sigma[study.msf.sigma.len() - 1],
+                sigma: last,
                 reached_by: "the end of `msf.sigma`",
                 instead: "or end the grid earlier",
             };

@@ -246,7 +246,7 @@ fn look(curve: &MasterStability) -> Vec<String> {
         sigma.len().to_string(),
         number(spacings().fold(f64::INFINITY, f64::min)),
         number(spacings().fold(0.0, f64::max)),
-        curve.between.to_string(),
+        curve.looked.between.to_string(),
         doubtful.join("; "),
         curve.attractors.len().max(1).to_string(),
     ]

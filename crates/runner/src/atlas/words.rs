@@ -41,14 +41,14 @@ pub fn report(found: &Found<'_>, warnings: &[Warning], comparison: Option<&Compa
     table.set_header(["system", "coupling", "class", "stable for", "looked at up to", "at sigma"]);
     for (system, pair, curve) in found.each() {
         let windows: Vec<String> = curve.stable.intervals.iter().map(interval).collect();
-        let last = curve.sigma[curve.sigma.len() - 1];
+        let last = curve.looked.to;
         table.add_row([
             system.name.clone(),
             format!("{} into {}", pair.from, pair.to),
             curve.stable.class().to_string(),
             if windows.is_empty() { "none".into() } else { windows.join(", ") },
             four_digits(last),
-            (curve.sigma.len() + curve.between).to_string(),
+            curve.looked.points.to_string(),
         ]);
     }
     writeln!(text, "{table}").expect("a string takes every line");

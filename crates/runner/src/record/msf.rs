@@ -1,6 +1,6 @@
 //! The master stability function in a summary: its zeros, its stable set, and the critical couplings.
 
-use dynamics::Estimate;
+use dynamics::{Closes, Estimate};
 use eigensync::{Findings, word};
 use msf::{Attractor, End, MasterStability, StableRegion, Zero};
 use serde::Serialize;
@@ -16,14 +16,21 @@ pub struct MsfRecord {
     pub lyapunov_isolated_step_shift: ShiftRecord,
     /// What that says: `chaotic`, `periodic` or `at rest`.
     pub isolated_state: &'static str,
+    /// How the orbit closes, where it does: Λ is then that of multipliers, and no average.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub closes: Option<ClosesRecord>,
     /// How many isolated oscillators ended in each of the states in which they come to rest; only
     /// where they do.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rests: Vec<usize>,
     /// The σ between which was looked; Λ(0) is known besides.
     pub looked: [f64; 2],
+    /// At how many.
+    pub looked_at: usize,
     /// How many σ were looked at between those of the grid, where a window might have been missed.
     pub looked_between: usize,
+    /// The widest gap between neighbours, as a share of its σ: a narrower window may have been missed.
+    pub widest_gap: f64,
     /// Gaps in which Λ comes so near zero that a window may still be hidden.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubtful: Vec<[f64; 2]>,
@@ -56,6 +63,34 @@ pub struct ShiftRecord {
 impl From<Estimate> for ShiftRecord {
     fn from(Estimate { mean, standard_error }: Estimate) -> Self {
         Self { mean, standard_error }
+    }
+}
+
+/// How an orbit closes.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum ClosesRecord {
+    /// It is at rest.
+    Equilibrium,
+    /// It is a limit cycle.
+    LimitCycle {
+        /// Its period, in model time units.
+        period: f64,
+    },
+    /// It is a cycle of a map.
+    MapCycle {
+        /// Its length.
+        iterations: usize,
+    },
+}
+
+impl From<Closes> for ClosesRecord {
+    fn from(closes: Closes) -> Self {
+        match closes {
+            Closes::AtOnce => Self::Equilibrium,
+            Closes::AfterPeriod { period } => Self::LimitCycle { period },
+            Closes::AfterIterations { n } => Self::MapCycle { iterations: n },
+        }
     }
 }
 
@@ -153,9 +188,12 @@ pub fn msf_record(msf: &MasterStability) -> MsfRecord {
         lyapunov_isolated_standard_error: msf.isolated.standard_error,
         lyapunov_isolated_step_shift: msf.isolated_step_shift.into(),
         isolated_state: word(msf.state),
+        closes: msf.closes.map(Into::into),
         rests: msf.rests.clone(),
-        looked: [msf.sigma[0], msf.sigma[msf.sigma.len() - 1]],
-        looked_between: msf.between,
+        looked: [msf.looked.from, msf.looked.to],
+        looked_at: msf.looked.points,
+        looked_between: msf.looked.between,
+        widest_gap: msf.looked.widest_gap,
         doubtful: msf.doubtful.clone(),
         stable: msf.stable.intervals.iter().map(|i| (i.lower(), i.upper())).collect(),
         stable_ends: ends(&msf.stable),
