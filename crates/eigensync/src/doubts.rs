@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use dynamics::lyapunov::Times;
 use dynamics::{Outcome, Run};
 use msf::{Isolated, MasterStability};
 
@@ -20,17 +21,22 @@ const LEAST_TRANSIENT: f64 = 2.0;
 const NAMED: usize = 8;
 
 /// Warns of times too short for the slowest motion of the oscillator, before anything is simulated.
-pub fn warn_of_short_times(study: &Study, warnings: &mut Warnings<'_>) {
+pub fn warn_of_short_times(study: &Study, msf: &MasterStability, warnings: &mut Warnings<'_>) {
     let component = study.sweep.as_ref().map_or(0, |sweep| sweep.observables.component);
     let seed = study.seed;
     let slow =
         dynamics::slow_time(study.node.dynamics.as_ref(), component, study.msf.times.step, seed);
     // An orbit at rest has no slow time, and the master stability function tells of one that escapes.
     let Ok(Some(slow)) = slow else { return };
+    let Times { average, transient, .. } = study.msf.times;
     let mut times = vec![
-        ("experiment.msf.average", "msf.average", study.msf.times.average, LEAST_AVERAGE),
-        ("experiment.msf.transient", "msf.transient", study.msf.times.transient, LEAST_TRANSIENT),
+        ("experiment.msf.average", "msf.average", average, LEAST_AVERAGE),
+        ("experiment.msf.transient", "msf.transient", transient, LEAST_TRANSIENT),
     ];
+    // Nothing is averaged over an orbit that closes.
+    if msf.closes.is_some() {
+        times.clear();
+    }
     if let Some(Sweep { schedule, .. }) = &study.sweep {
         times.push(("experiment.sweep.average", "sweep.average", schedule.average, LEAST_AVERAGE));
         times.push((

@@ -178,7 +178,7 @@ fn looked_at<C: Compute>(
     warnings: &mut Warnings<'_>,
 ) -> Result<MasterStability, C::Error> {
     let msf = compute.curve(study)?;
-    doubts::warn_of_short_times(study, warnings);
+    doubts::warn_of_short_times(study, &msf, warnings);
     stability::warn(study, &msf, warnings);
     Ok(msf)
 }

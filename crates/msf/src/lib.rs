@@ -13,6 +13,7 @@ mod curve;
 mod error;
 mod exact;
 mod fit;
+mod held_against;
 mod isolated;
 mod look;
 mod origin;

@@ -95,6 +95,7 @@ mod tests {
             measure,
             split: None,
             has_step: true,
+            bias: 0.0,
         };
         let first = Signed { sigma: 1.0, negative: truth(1.0) < 0.0 };
         let (certain, end) = with(state, vec![first], &mut finder).unwrap();

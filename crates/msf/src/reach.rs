@@ -1,23 +1,19 @@
-//! How far a grid of σ should reach when nobody says: beyond the last change of sign of Λ, found by a
-//! coarse look at powers of two.
+//! How far a grid of σ should reach when nobody says: to twice the last change of sign of Λ, found by a look
+//! as far as the step goes.
 
+use dynamics::Progress;
 use dynamics::lyapunov::{Tangent, Times, master_exponents};
-use dynamics::{Estimate, Progress};
 
+use crate::look::{Fineness, Seen, look};
+use crate::range::{by_factors, furthest};
+use crate::zeros::Signed;
 use crate::{MsfError, Node};
 
-/// σ of the look are the largest times powers of 1/2, down to where coupling hardly matters. The largest
-/// is half the step's inverse, where RK4 still damps as it should.
-const POWERS: i32 = 16;
+/// A look halves gaps down to this share of their σ, and adds no more points than this.
+const NARROWEST: f64 = 0.02;
+const MOST: usize = 256;
 
-/// The largest σ of the look at a map, times two: beyond, few of DF − σ DH contract.
-const MAPS: f64 = 64.0;
-
-/// A sign counts when Λ is this many standard errors away from zero.
-const CERTAIN: f64 = 3.0;
-
-/// Twice the σ behind the last certain change of sign of Λ; the largest σ looked at where Λ keeps
-/// its sign, so that a grid up to there shows it.
+/// How far a grid should reach.
 ///
 /// # Errors
 /// [`MsfError::Dynamics`] for an orbit that escapes and times that make no sense.
@@ -27,24 +23,31 @@ pub fn reach(
     seed: u64,
     progress: Progress<'_>,
 ) -> Result<f64, MsfError> {
-    let beyond = if node.dynamics.is_map() { MAPS } else { 1.0 / times.step };
-    let sigma: Vec<f64> = (1..=POWERS).rev().map(|power| 0.5f64.powi(power) * beyond).collect();
-    let tangents: Vec<Tangent> = sigma.iter().map(|&sigma| Tangent { sigma, seed }).collect();
-    let lambda =
-        master_exponents(node.dynamics.as_ref(), &node.coupling, times, &tangents, progress)?;
-    Ok(last_change(&sigma, &lambda).map_or(sigma[sigma.len() - 1], |sigma| 2.0 * sigma))
+    let base = by_factors(furthest(node, times, seed)?);
+    let (dynamics, coupling) = (node.dynamics.as_ref(), &node.coupling);
+    let seen = on_one_orbit(base, times, |sigmas| {
+        let tangents: Vec<_> = sigmas.iter().map(|&sigma| Tangent { sigma, seed }).collect();
+        Ok(master_exponents(dynamics, coupling, times, &tangents, progress)?)
+    })?;
+    Ok(beyond_last_change(&seen.signs(1.0 / times.average)))
 }
 
-/// The σ behind the last change between two certain signs.
-fn last_change(sigma: &[f64], lambda: &[Estimate]) -> Option<f64> {
-    let certain: Vec<(f64, bool)> = sigma
-        .iter()
-        .zip(lambda)
-        .filter(|(_, lambda)| lambda.mean.abs() > CERTAIN * lambda.standard_error)
-        .map(|(&sigma, lambda)| (sigma, lambda.mean < 0.0))
-        .collect();
-    let mut changes = certain.windows(2).filter(|pair| pair[0].1 != pair[1].1);
-    changes.next_back().map(|pair| pair[1].0)
+/// A look at averages over such times, beginning with some σ.
+pub(crate) fn on_one_orbit(
+    base: Vec<f64>,
+    times: &Times,
+    mut measure: impl FnMut(&[f64]) -> Result<Vec<dynamics::Estimate>, MsfError>,
+) -> Result<Seen, MsfError> {
+    let points = base.iter().copied().zip(measure(&base)?).collect();
+    let fineness = Fineness { floor: 1.0 / times.average, narrowest: NARROWEST, most: MOST };
+    look(points, &fineness, measure)
+}
+
+/// Twice the σ behind the last change of sign; the last σ where there is none.
+pub(crate) fn beyond_last_change(signs: &[Signed]) -> f64 {
+    let last = signs.last().map_or(1.0, |last| last.sigma);
+    let mut changes = signs.windows(2).filter(|pair| pair[0].negative != pair[1].negative);
+    changes.next_back().map_or(last, |pair| (2.0 * pair[1].sigma).min(last))
 }
 
 #[cfg(test)]
@@ -63,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_zero_lies_between_a_quarter_and_a_half_of_the_reach() {
+    fn the_last_zero_lies_just_below_half_of_the_reach() {
         // σ = 8.17 (Lorenz, x into y), 0.94 (Hindmarsh–Rose, x into x), 4.61 (Rössler, x into x).
         let reached = [
             (reach_of(Model::Lorenz(Lorenz::default()), 0, 1), 8.17),
@@ -71,21 +74,17 @@ mod tests {
             (reach_of(Model::Rossler(Rossler::default()), 0, 0), 4.61),
         ];
         for (reach, zero) in reached {
-            assert!((2.0 * zero..=4.0 * zero).contains(&reach), "{reach} for {zero}");
+            assert!((2.0 * zero..=2.6 * zero).contains(&reach), "{reach} for {zero}");
         }
     }
 
     #[test]
-    fn a_sign_that_never_changes_is_shown_up_to_the_largest_sigma() {
-        // x of Rössler into z does not damp at any σ.
-        let estimates = [1.0, 0.5, 0.2].map(|mean| Estimate { mean, standard_error: 0.01 });
-        assert_eq!(last_change(&[1.0, 2.0, 4.0], &estimates), None);
-    }
-
-    #[test]
-    fn signs_in_doubt_are_passed_over() {
-        let estimates = [(1.0, 0.1), (-0.1, 0.2), (-1.0, 0.1)]
-            .map(|(mean, standard_error)| Estimate { mean, standard_error });
-        assert_eq!(last_change(&[1.0, 2.0, 4.0], &estimates), Some(4.0));
+    fn a_curve_reaches_to_twice_the_last_change_of_sign() {
+        let signs = |text: &[(f64, bool)]| -> Vec<Signed> {
+            text.iter().map(|&(sigma, negative)| Signed { sigma, negative }).collect()
+        };
+        let seen = signs(&[(1.0, false), (2.0, true), (4.0, false), (8.0, false), (64.0, false)]);
+        assert_eq!(beyond_last_change(&seen), 8.0);
+        assert_eq!(beyond_last_change(&signs(&[(1.0, true), (50.0, true)])), 50.0);
     }
 }

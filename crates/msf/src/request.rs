@@ -49,9 +49,9 @@ impl Request {
     }
 
     /// Steps of tangent vectors, about: those of the curve and of two zeros, besides those with half the
-    /// step.
+    /// step or a longer transient.
     pub fn steps(&self) -> u64 {
         let n_points = if self.sigma.is_empty() { LOOKED } else { self.looked_at().len() as u64 };
-        (n_points + 16 + 64 + 2 * (8 + 16)) * self.times.steps()
+        (n_points + 16 + 64 + 2 * (8 + 16 + 16)) * self.times.steps()
     }
 }

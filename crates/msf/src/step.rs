@@ -17,6 +17,8 @@ pub(crate) enum Step {
     Asked,
     /// Half of it, over the same time.
     Halved,
+    /// As asked for, of orbits that have settled for longer by the time of an average.
+    Later,
 }
 
 /// Whether a change is more than chance.

@@ -8,6 +8,7 @@ use crate::curve::{Looked, MasterStability};
 use crate::exact::{on_closed_orbits, shown};
 use crate::look::{Fineness, Point, Seen, look};
 use crate::range::{by_factors, furthest};
+use crate::reach::{beyond_last_change, on_one_orbit};
 use crate::refinement::Advance;
 use crate::region::region;
 use crate::seeds::Seeds;
@@ -20,12 +21,11 @@ const HALVED_ORBITS: usize = 8;
 /// A look for windows averages over no more time than this: over units of time, and over iterations.
 const LOOK_FLOW: f64 = 4000.0;
 const LOOK_MAP: f64 = 20_000.0;
-/// It halves gaps down to this share of their σ, and adds no more points than this.
-const NARROWEST: f64 = 0.02;
-const MOST: usize = 256;
-/// Gaps in doubt after it are looked at with full averages, so many of them, with so many points each.
+/// Gaps in doubt after it are looked at with full averages, so many of them, with so many points each, down
+/// to this share of their σ.
 const CLOSER: usize = 4;
 const CLOSER_POINTS: usize = 12;
+const NARROWEST: f64 = 0.02;
 
 /// Computes Λ on the grid, the isolated exponent, and every zero to the accuracy asked for, or as
 /// well as the allowed rounds of refinement give; each zero carries the standard error it has. Where
@@ -100,6 +100,7 @@ impl Work<'_> {
         match step {
             Step::Asked => {}
             Step::Halved => times.step *= 0.5,
+            Step::Later => times.transient += times.average,
         }
         self.exponents_over(&times, tangents)
     }
@@ -142,10 +143,9 @@ impl Work<'_> {
             [] => by_factors(self.furthest),
             _ => with_zero(self.request.looked_at()),
         };
-        let points = base.iter().copied().zip(on_orbit(&base)?).collect();
-        let floor = 1.0 / times.average;
-        look(points, &Fineness { floor, narrowest: NARROWEST, most: MOST }, on_orbit)
+        on_one_orbit(base, &times, on_orbit)
     }
+
     /// What an average over this time does not know of an exponent in any case: the length of a
     /// tangent varies along the orbit by a factor of order one.
     fn floor(&self) -> f64 {
@@ -168,7 +168,7 @@ impl Work<'_> {
         let seen = self.look(seeds.of_look())?;
         let seen_signs = seen.signs(1.0 / self.look_times().average);
         let sigma = match self.request.sigma[..] {
-            [] => shown(reach(&seen_signs)),
+            [] => shown(beyond_last_change(&seen_signs)),
             _ => self.request.looked_at(),
         };
         let (isolated, isolated_step_shift, split) = self.isolated(seeds)?;
@@ -192,7 +192,10 @@ impl Work<'_> {
         };
         let (refinement, advance) = (&self.request.refinement, self.advance);
         let has_step = !self.node.dynamics.is_map();
-        let mut finder = Finder { refinement, advance, floor, measure, split, has_step };
+        // Means over a chaotic orbit are right on average; one that is not may come back after a time T to
+        // where it has another length, in every phase.
+        let bias = if state == Isolated::Chaotic { 0.0 } else { floor };
+        let mut finder = Finder { refinement, advance, floor, measure, split, has_step, bias };
         let positive: Vec<Point> =
             sigma.iter().copied().zip(lambda.iter().copied()).filter(|p| p.0 > 0.0).collect();
         let certain = finder.settle(&positive)?;
@@ -336,13 +339,6 @@ fn with_zero(sigma: Vec<f64>) -> Vec<f64> {
     [0.0].into_iter().chain(sigma.into_iter().filter(|&sigma| sigma > 0.0)).collect()
 }
 
-/// Twice the σ behind the last change of sign; the last σ where there is none.
-fn reach(signs: &[Signed]) -> f64 {
-    let mut changes = signs.windows(2).filter(|pair| pair[0].negative != pair[1].negative);
-    let last = signs.last().map_or(1.0, |last| last.sigma);
-    changes.next_back().map_or(last, |pair| 2.0 * pair[1].sigma).min(last.max(1e-3))
-}
-
 /// Certain signs, with those of another look that lie beyond them or say otherwise than both their
 /// neighbours.
 fn reveal(certain: Vec<Signed>, others: Vec<Signed>) -> Vec<Signed> {
@@ -380,12 +376,5 @@ mod tests {
         let all = reveal(certain, others);
         let added: Vec<f64> = all.iter().map(|signed| signed.sigma).collect();
         assert_eq!(added, [0.0, 0.5, 1.0, 2.0, 2.6, 3.0, 9.0]);
-    }
-
-    #[test]
-    fn a_curve_reaches_to_twice_the_last_change_of_sign() {
-        let seen = signs(&[(1.0, false), (2.0, true), (4.0, false), (8.0, false), (64.0, false)]);
-        assert_eq!(reach(&seen), 8.0);
-        assert_eq!(reach(&signs(&[(1.0, true), (50.0, true)])), 50.0);
     }
 }

@@ -9,9 +9,10 @@ use crate::step::is_certain;
 pub struct Zero {
     /// Where Λ(σ) = 0.
     pub sigma: f64,
-    /// Standard error of it, from the scatter of independent orbits about a line, what bending of Λ may
-    /// add, and what half the step changes where that is more than chance; half the width of the
-    /// bracket where no line could be drawn.
+    /// Standard error of it: of averages from the scatter of independent orbits about a line, what bending
+    /// of Λ may add, and what half the step and a longer transient change where that is more than chance,
+    /// or half the width of the bracket where no line could be drawn; on orbits that close that of
+    /// the computation.
     pub standard_error: f64,
     /// Whether Λ falls through zero, so that larger σ is stable.
     pub falling: bool,

@@ -8,7 +8,7 @@ use crate::MsfError;
 use crate::attractors::{self, Column};
 use crate::fit::{Line, Sample, curvature};
 use crate::refinement::{Advance, Refinement, rounds_ahead};
-use crate::step::{Step, with_shift};
+use crate::step::Step;
 use crate::zero::Zero;
 
 /// Exponents measured in each round.
@@ -16,9 +16,6 @@ pub(crate) const PER_ROUND: usize = 32;
 /// A round that looks for signs has as many σ, and as many orbits at each.
 const COLUMNS: usize = 8;
 const ORBITS: usize = PER_ROUND / COLUMNS;
-
-/// Exponents measured at half the step where a zero was found, each at twice the cost.
-const HALVED: usize = 16;
 
 /// A sign is certain when Λ is this many standard errors away from zero.
 const CERTAIN: f64 = 4.0;
@@ -61,6 +58,8 @@ pub(crate) struct Finder<'a, M> {
     pub split: Option<f64>,
     /// Whether there is a step to halve: none of a map.
     pub has_step: bool,
+    /// By how much exponents of all orbits may be off alike.
+    pub bias: f64,
 }
 
 impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
@@ -218,26 +217,11 @@ impl<M: FnMut(&[f64], Step) -> Result<Vec<Estimate>, MsfError>> Finder<'_, M> {
             let least = if bend > 0.5 * target { 0.5 * WINDOW * noise } else { narrow };
             window = window.min((0.25 * window).max(least));
         }
-        match slope {
-            Some(slope) if self.has_step => self.with_step(best, slope),
-            _ => Ok(best),
-        }
-    }
-
-    /// A zero with what half the step changes, from Λ there and its slope.
-    fn with_step(&mut self, zero: Zero, slope: f64) -> Result<Zero, MsfError> {
-        let halved = mean_of(&(self.measure)(&[zero.sigma; HALVED], Step::Halved)?);
-        let mean = -halved.mean / slope;
-        let standard_error = (halved.standard_error / slope).hypot(zero.standard_error);
-        let shift = Estimate { mean, standard_error };
-        let standard_error = with_shift(zero.standard_error, shift);
-        let is_good = standard_error <= self.refinement.relative_error * zero.sigma;
-        let (refined, step_shift) = (zero.refined && is_good, Some(shift));
-        Ok(Zero { standard_error, refined, step_shift, ..zero })
+        slope.map_or(Ok(best), |slope| self.held_against(best, slope))
     }
 }
 
-fn mean_of(exponents: &[Estimate]) -> Estimate {
+pub(crate) fn mean_of(exponents: &[Estimate]) -> Estimate {
     Estimate::from_independent(&exponents.iter().map(|e| e.mean).collect::<Vec<_>>())
 }
 
@@ -291,6 +275,7 @@ mod tests {
                 measure,
                 split: None,
                 has_step: true,
+                bias: 0.0,
             };
             let signs = finder.settle(&grid).unwrap();
             let found = finder.zeros(&signs).unwrap();

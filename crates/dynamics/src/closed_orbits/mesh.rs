@@ -12,7 +12,7 @@ use crate::{Coupling, NodeDynamics};
 /// A step is as long as its error, seen by halving it, allows: this, in units of the orbit's extent.
 const LOCAL_ERROR: f64 = 1e-10;
 /// A period has so many steps at the least.
-const LEAST_STEPS: f64 = 16.0;
+const LEAST_STEPS: f64 = 48.0;
 /// And at the most.
 const MOST_STEPS: usize = 20_000;
 /// Rounds of Newton's iteration, and the distance of x(T) from x(0) at which it ends.

@@ -30,19 +30,22 @@ fn is_at(rest: &[f64], state: &[f64]) -> bool {
     rest.iter().zip(state).all(|(rest, x)| (x - rest).abs() <= AT_STATE * size)
 }
 
-/// Distance of a state from the orbit through some states, across its flow at the nearest of them.
+/// Distance of a state from the orbit through some states, which is followed from the nearest of them to the
+/// second order in time, ẋ = F and ẍ = DF F.
 fn distance(dynamics: &dyn NodeDynamics, states: &[f64], state: &[f64], scale: &[f64]) -> f64 {
-    let off = |point: &[f64]| -> Vec<f64> {
-        (0..scale.len()).map(|c| (state[c] - point[c]) / scale[c]).collect()
-    };
+    let n = scale.len();
+    let off =
+        |point: &[f64]| -> Vec<f64> { (0..n).map(|c| (state[c] - point[c]) / scale[c]).collect() };
     let square = |off: &[f64]| off.iter().map(|x| x * x).sum::<f64>();
-    let points = states.chunks(scale.len());
-    let nearest = points.min_by(|a, b| square(&off(a)).total_cmp(&square(&off(b))));
+    let nearest = states.chunks(n).min_by(|a, b| square(&off(a)).total_cmp(&square(&off(b))));
     let Some(nearest) = nearest else { return f64::INFINITY };
+    let at = Jacobians::of_flow(dynamics, nearest);
+    let scaled = |c: usize, value: f64| value / scale[c];
+    let flow: Vec<f64> = (0..n).map(|c| scaled(c, at.flow[c])).collect();
+    let bend = |c: usize| (0..n).map(|k| at.matrices[c * n + k] * at.flow[k]).sum();
+    let bend: Vec<f64> = (0..n).map(|c| scaled(c, bend(c))).collect();
     let off = off(nearest);
-    let flow = Jacobians::of_flow(dynamics, nearest).flow;
-    let flow: Vec<f64> = flow.iter().zip(scale).map(|(f, scale)| f / scale).collect();
-    let along = off.iter().zip(&flow).map(|(x, f)| x * f).sum::<f64>() / square(&flow);
-    let across: Vec<f64> = off.iter().zip(&flow).map(|(x, f)| x - along * f).collect();
-    square(&across).sqrt()
+    let time = off.iter().zip(&flow).map(|(x, f)| x * f).sum::<f64>() / square(&flow);
+    let left = |c: usize| off[c] - time * flow[c] - 0.5 * time * time * bend[c];
+    square(&(0..n).map(left).collect::<Vec<_>>()).sqrt()
 }

@@ -9,8 +9,8 @@ use user::{Problem, Result, Stages};
 
 use crate::computed::{LOOK_SEED, curve_key, first_look, look_key, refined};
 
-/// σ of a first look.
-const LOOKS: u64 = 16;
+/// σ of a first look, about.
+const LOOKS: u64 = 150;
 
 /// The curves of all pairs, in order.
 pub fn find(plan: &AtlasPlan, journal: &Journal, stages: &Stages) -> Result<Vec<MasterStability>> {
