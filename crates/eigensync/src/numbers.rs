@@ -1,7 +1,7 @@
 //! Numbers in words, with as many digits as mean something.
 
 /// Relative errors below this are not said.
-const EXACT: f64 = 1e-7;
+pub(crate) const EXACT: f64 = 1e-7;
 
 /// A number as people write it, whatever its size.
 pub fn plain(number: f64) -> String {

@@ -9,7 +9,7 @@
 use msf::{End, Interval, Looked, Stability, StableRegion, coupling_at, transition_at};
 use serde::Serialize;
 
-use crate::numbers::{four_digits, three_digits, two_digits};
+use crate::numbers::{EXACT, four_digits, six_digits, three_digits, two_digits};
 
 /// The verdict with its numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -163,9 +163,10 @@ impl Evidence<'_> {
 impl EpsilonRange {
     fn in_words(&self, at_rest: bool) -> String {
         let end = |value: f64, error: Option<f64>| match error {
-            Some(error) if error > 0.0 => {
+            Some(error) if error > EXACT * value => {
                 format!("{} (± {})", four_digits(value), two_digits(error))
             }
+            Some(error) if error > 0.0 => six_digits(value),
             _ => four_digits(value),
         };
         let from = end(self.from, self.from_standard_error);

@@ -25,7 +25,7 @@ pub fn reach(
 ) -> Result<f64, MsfError> {
     let base = by_factors(furthest(node, times, seed)?);
     let (dynamics, coupling) = (node.dynamics.as_ref(), &node.coupling);
-    let seen = on_one_orbit(base, times, |sigmas| {
+    let seen = on_one_orbit(&base, times, |sigmas| {
         let tangents: Vec<_> = sigmas.iter().map(|&sigma| Tangent { sigma, seed }).collect();
         Ok(master_exponents(dynamics, coupling, times, &tangents, progress)?)
     })?;
@@ -34,11 +34,11 @@ pub fn reach(
 
 /// A look at averages over such times, beginning with some σ.
 pub(crate) fn on_one_orbit(
-    base: Vec<f64>,
+    base: &[f64],
     times: &Times,
     mut measure: impl FnMut(&[f64]) -> Result<Vec<dynamics::Estimate>, MsfError>,
 ) -> Result<Seen, MsfError> {
-    let points = base.iter().copied().zip(measure(&base)?).collect();
+    let points = base.iter().copied().zip(measure(base)?).collect();
     let fineness = Fineness { floor: 1.0 / times.average, narrowest: NARROWEST, most: MOST };
     look(points, &fineness, measure)
 }

@@ -18,9 +18,10 @@ use crate::{Isolated, MsfError, Node, Request, origin, rest};
 
 /// So many isolated orbits are run at half the step as well.
 const HALVED_ORBITS: usize = 8;
-/// A look for windows averages over no more time than this: over units of time, and over iterations.
-const LOOK_FLOW: f64 = 4000.0;
-const LOOK_MAP: f64 = 20_000.0;
+/// A look for windows averages over a quarter of the time of other exponents, but no less and no more than
+/// this: over units of time, and over iterations.
+const LOOK_FLOW: [f64; 2] = [1000.0, 4000.0];
+const LOOK_MAP: [f64; 2] = [5000.0, 20_000.0];
 /// Gaps in doubt after it are looked at with full averages, so many of them, with so many points each, down
 /// to this share of their σ.
 const CLOSER: usize = 4;
@@ -127,9 +128,10 @@ impl Work<'_> {
 
     /// Times of the look for windows.
     fn look_times(&self) -> Times {
-        let most = if self.node.dynamics.is_map() { LOOK_MAP } else { LOOK_FLOW };
+        let [least, most] = if self.node.dynamics.is_map() { LOOK_MAP } else { LOOK_FLOW };
         let times = self.request.times;
-        Times { average: times.average.min(most), ..times }
+        let average = (0.25 * times.average).clamp(least, most).min(times.average);
+        Times { average, ..times }
     }
 
     /// A look for windows on an orbit of its own, at the grid or as far as the step goes, with Λ(0).
@@ -143,7 +145,7 @@ impl Work<'_> {
             [] => by_factors(self.furthest),
             _ => with_zero(self.request.looked_at()),
         };
-        on_one_orbit(base, &times, on_orbit)
+        on_one_orbit(&base, &times, on_orbit)
     }
 
     /// What an average over this time does not know of an exponent in any case: the length of a

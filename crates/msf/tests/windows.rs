@@ -7,6 +7,9 @@ use dynamics::lyapunov::Times;
 use dynamics::{Closes, Coupling, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{End, MasterStability, Node, Refinement, Request, master_stability};
 
+/// A window of stable σ, without an upper end where none was found.
+type Window = (f64, Option<f64>);
+
 /// What is found where nobody says where to look, in short averages.
 fn found(
     model: Model,
@@ -24,14 +27,14 @@ fn found(
     master_stability(&node, &request, dynamics::QUIET).expect("the request is sound")
 }
 
-fn windows(msf: &MasterStability) -> Vec<(f64, Option<f64>)> {
+fn windows(msf: &MasterStability) -> Vec<Window> {
     msf.stable.intervals.iter().map(|interval| (interval.lower(), interval.upper())).collect()
 }
 
-fn assert_windows(msf: &MasterStability, expected: &[(f64, Option<f64>)], within: f64) {
+fn assert_windows(msf: &MasterStability, expected: &[Window], within: f64) {
     let found = windows(msf);
     let near = |a: f64, b: f64| (a - b).abs() <= within * b.max(1e-12);
-    let ends = |(a, b): (&(f64, Option<f64>), &(f64, Option<f64>))| {
+    let ends = |(a, b): (&Window, &Window)| {
         near(a.0, b.0)
             && match (a.1, b.1) {
                 (Some(a), Some(b)) => near(a, b),
@@ -56,7 +59,7 @@ const SHORT: (f64, f64) = (50.0, 400.0);
 
 #[test]
 fn windows_of_limit_cycles_are_those_of_their_multipliers() {
-    let cases: [(Model, [usize; 2], &[(f64, Option<f64>)]); 7] = [
+    let cases: [(Model, [usize; 2], &[Window]); 7] = [
         (
             rossler(0.2, 2.0, 5.7),
             [2, 0],
