@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 pub use orbit::{ClosedOrbit, Closes};
 
-use crate::{Coupling, DynamicsError, NodeDynamics};
+use crate::{Coupling, DynamicsError, NodeDynamics, Progress};
 use search::Follower;
 
 /// A closed orbit, and who settles on it.
@@ -34,17 +34,19 @@ pub struct Settled {
 /// Runs on the current rayon pool; the result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`DynamicsError::Escaped`] when an orbit leaves the ball of [`NodeDynamics::escape_radius`].
+/// [`DynamicsError::Escaped`] when an orbit leaves the ball of [`NodeDynamics::escape_radius`];
+/// [`DynamicsError::Cancelled`] when whoever is told of progress wants to stop.
 pub fn closed_orbits(
     dynamics: &Arc<dyn NodeDynamics>,
     coupling: &Coupling,
     times: (f64, f64),
     seeds: &[u64],
+    progress: Progress<'_>,
 ) -> Result<Option<Vec<Settled>>, DynamicsError> {
     if dynamics.has_clock() {
         return Ok(None);
     }
-    let node = (dynamics, coupling);
+    let node = (dynamics, coupling, progress);
     let mut found: Vec<Settled> = Vec::new();
     let mut left: Vec<usize> = (0..seeds.len()).collect();
     while let Some(&first) = left.first() {

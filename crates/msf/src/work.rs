@@ -1,7 +1,7 @@
 //! From a request to Λ(σ): on orbits that close as a function, on all others as averages over orbits.
 
 use dynamics::lyapunov::{Tangent, Times, master_exponents_with};
-use dynamics::{DynamicsError, Estimate, Progress, Settled, closed_orbits};
+use dynamics::{Estimate, Progress, Settled, closed_orbits};
 
 use crate::attractors::{self, Attractor, Column};
 use crate::curve::{Looked, MasterStability};
@@ -120,10 +120,7 @@ impl Work<'_> {
     fn closed(&self, seeds: &[u64]) -> Result<Option<Vec<Settled>>, MsfError> {
         let Times { step, transient, .. } = self.request.times;
         let Node { dynamics, coupling } = self.node;
-        if (self.progress)(0).is_break() {
-            return Err(DynamicsError::Cancelled.into());
-        }
-        Ok(closed_orbits(dynamics, coupling, (step, transient), seeds)?)
+        Ok(closed_orbits(dynamics, coupling, (step, transient), seeds, self.progress)?)
     }
 
     /// Times of the look for windows.

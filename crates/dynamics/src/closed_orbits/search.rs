@@ -18,7 +18,7 @@ use crate::error::whole;
 use crate::isolated_orbit::IsolatedOrbit;
 use crate::jacobians::Jacobians;
 use crate::small_eigenvalues::eigenvalues;
-use crate::{Coupling, DynamicsError, NodeDynamics};
+use crate::{Coupling, DynamicsError, NodeDynamics, Progress};
 
 /// Steps of the first window, and how many windows there are.
 const FIRST_WINDOW: usize = 1 << 14;
@@ -27,6 +27,9 @@ const WINDOWS: usize = 5;
 const COMES_BACK: f64 = 1e-4;
 /// Newton's iteration finds the orbit at hand within this distance, and its period within this share.
 const AT_HAND: f64 = 0.02;
+/// A cycle is looked for within a return after so many turns, each of which comes back within this distance.
+const MOST_TURNS: u32 = 8;
+const NEARLY_BACK: f64 = 0.1;
 /// Returns that are tried in a window.
 const MOST_RETURNS: usize = 3;
 /// The multiplier along the flow is 1 within this, the others are inside the unit circle by as much.
@@ -38,8 +41,8 @@ const MAP_COMES_BACK: f64 = 1e-9;
 /// States of a window that must be on a closed orbit.
 const LOOKS: usize = 64;
 
-/// Dynamics and coupling.
-pub(super) type Node<'a> = (&'a Arc<dyn NodeDynamics>, &'a Coupling);
+/// Dynamics and coupling, and who may want to stop.
+pub(super) type Node<'a> = (&'a Arc<dyn NodeDynamics>, &'a Coupling, Progress<'a>);
 
 /// An isolated oscillator after its transient.
 pub(super) struct Follower<'a> {
@@ -97,6 +100,9 @@ impl<'a> Follower<'a> {
     }
 
     fn window(&mut self, n_steps: usize) -> Result<Window, DynamicsError> {
+        if (self.node.2)(0).is_break() {
+            return Err(DynamicsError::Cancelled);
+        }
         let n = self.orbit.state().len();
         let mut states = Vec::with_capacity((n_steps + 1) * n);
         states.extend(self.orbit.state());
@@ -138,17 +144,25 @@ impl<'a> Follower<'a> {
     }
 
     fn limit_cycle(&self, window: &Window) -> Option<ClosedOrbit> {
-        let (dynamics, coupling) = self.node;
+        let (dynamics, coupling, _) = self.node;
         let (scale, start) = (extent(&window.states, window.n), window.at(0));
         let returns = window.returns(dynamics.as_ref(), &scale).take(MOST_RETURNS);
-        let mut cycles = returns.filter_map(|steps| {
-            let time = steps * self.step;
+        let near = |time: f64| {
             let mesh = Mesh::near((dynamics.as_ref(), coupling), (start, time), &scale)?;
             let is_here = apart(&mesh.start, start, &scale) <= AT_HAND
                 && (mesh.period / time - 1.0).abs() <= AT_HAND;
             (is_here && attracts(&mesh)).then_some(mesh)
-        });
-        let mesh = cycles.next()?;
+        };
+        let mut cycles = returns.filter_map(|steps| near(steps * self.step));
+        let found = cycles.next()?;
+        // An orbit that spirals in from side to side is nearer after two turns than after one.
+        let mut shares = (2..=MOST_TURNS).rev().map(|turns| found.period / f64::from(turns));
+        let is_near = |time: &f64| {
+            let step = usize::try_from(whole(time / self.step)).unwrap_or(usize::MAX);
+            step < window.len() && apart(window.at(step), start, &scale) <= NEARLY_BACK
+        };
+        let mesh =
+            shares.find_map(|time| Some(time).filter(is_near).and_then(near)).unwrap_or(found);
         let scale = extent(&mesh.states, window.n);
         let cycle = Cycle::new(dynamics.clone(), coupling.clone(), mesh);
         Some(ClosedOrbit { kind: Kind::LimitCycle(Box::new(cycle)), scale })

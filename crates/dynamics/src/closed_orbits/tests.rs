@@ -8,7 +8,7 @@ const SEEDS: [u64; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
 fn orbits(model: Model, pair: [usize; 2], transient: f64) -> Option<Vec<Settled>> {
     let dynamics: Arc<dyn NodeDynamics> = Arc::new(model);
     let coupling = Coupling::pair(pair[0], pair[1]);
-    closed_orbits(&dynamics, &coupling, (0.01, transient), &SEEDS).unwrap()
+    closed_orbits(&dynamics, &coupling, (0.01, transient), &SEEDS, crate::QUIET).unwrap()
 }
 
 fn one(model: Model, pair: [usize; 2], transient: f64) -> ClosedOrbit {
