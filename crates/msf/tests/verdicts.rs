@@ -52,7 +52,8 @@ fn stable_sets_of_limit_cycles_are_those_of_multipliers_computed_elsewhere() {
         assert!((period / case.period - 1.0).abs() < 1e-7, "{what}: {period}");
         let zeros: Vec<f64> =
             msf.stable.zeros().map(|zero| zero.sigma).filter(|&s| s < oracle::LAST).collect();
-        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-7 * b;
+        // Exponents are known to some 1e-11 there, over slopes down to 1e-3.
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * b;
         assert!(
             msf.stable.contains(1e-3) == case.begins_stable
                 && zeros.len() == case.zeros.len()
