@@ -2,8 +2,8 @@
 //!
 //! Nothing here changes a bit: operations on constants are done beforehand by the code that would do
 //! them later, an operation that was done before on the same numbers is not done again, sums and
-//! products may swap their two operands, and a selection between equals is none. Nothing is
-//! reassociated, and no two roundings become one.
+//! products may swap their two operands, a product with 1 is its other factor, and a selection
+//! between equals is none. Nothing is reassociated, and no two roundings become one.
 
 use std::collections::HashMap;
 
@@ -160,6 +160,12 @@ impl Builder {
     fn push(&mut self, code: Code, mut operands: [Value; 3]) -> Value {
         if let [Value::Constant(a), Value::Constant(b), Value::Constant(c)] = operands {
             return Value::Constant(code.of([a, b, c]));
+        }
+        if let (Code::Multiply, [a, b, _]) = (code, operands) {
+            match (a, b) {
+                (Value::Constant(1.0), other) | (other, Value::Constant(1.0)) => return other,
+                _ => {}
+            }
         }
         if code.commutes() && Key::from(operands[0]) > Key::from(operands[1]) {
             operands = [operands[1], operands[0], operands[0]];

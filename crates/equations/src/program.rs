@@ -2,6 +2,7 @@
 
 use crate::assemble::{Assembled, assemble};
 use crate::run::Registers;
+use crate::series::Series;
 use crate::system::System;
 use crate::tangent::tangents;
 use crate::tape::Tape;
@@ -18,6 +19,8 @@ pub struct Program {
     values: Tape,
     /// F(x) and DF(x) δ of x and δ.
     tangents: Tape,
+    /// None of equations with pieces.
+    series: Option<Series>,
     n_outputs: usize,
 }
 
@@ -45,11 +48,12 @@ impl Program {
 
     fn assembled(mut assembled: Assembled) -> Self {
         let values = Tape::new(&assembled.builder, assembled.inputs, &assembled.outputs);
+        let series = Series::new(&mut assembled);
         let tangents = tangents(&mut assembled);
         let n_outputs = assembled.outputs.len();
         let outputs = [assembled.outputs, tangents].concat();
         let tangents = Tape::new(&assembled.builder, 2 * assembled.inputs, &outputs);
-        Self { values, tangents, n_outputs }
+        Self { values, tangents, series, n_outputs }
     }
 
     /// Components that come in, with time if it enters.
@@ -65,6 +69,11 @@ impl Program {
     /// Operations of an evaluation, without and with derivatives.
     pub fn n_operations(&self) -> [usize; 2] {
         [self.values.instructions.len(), self.tangents.instructions.len()]
+    }
+
+    /// The same equations as series in time along a solution; none where they have pieces.
+    pub fn series(&self) -> Option<&Series> {
+        self.series.as_ref()
     }
 
     /// F(x) of every number: `x[c]` are numbers of component c, and `to[k]` as many of output k.

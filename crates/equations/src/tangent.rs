@@ -9,14 +9,48 @@ use crate::builder::{Builder, Value};
 use crate::names::{Comparison, Unary};
 use crate::scalar::Code;
 
+/// An entry of the Jacobian that is not 0 everywhere.
+pub(crate) struct Entry {
+    pub output: usize,
+    pub input: usize,
+    pub slope: Value,
+}
+
 /// The tangents of outputs, in terms of tangents of inputs, which are inputs behind the others.
 pub(crate) fn tangents(assembled: &mut Assembled) -> Vec<Value> {
-    let Assembled { builder, inputs, outputs } = assembled;
-    let n_steps = builder.steps.len();
+    let n_inputs = assembled.inputs;
+    let tangents = along(assembled, |input| Some(Value::Input(n_inputs + input)));
+    tangents.into_iter().map(|tangent| tangent.unwrap_or(Value::Constant(0.0))).collect()
+}
+
+/// The entries of the Jacobian that are not 0 everywhere, output by output: tangents along the axes.
+pub(crate) fn jacobian(assembled: &mut Assembled) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    for input in 0..assembled.inputs {
+        let axis = |other: usize| (other == input).then_some(Value::Constant(1.0));
+        let column = along(assembled, axis).into_iter().enumerate();
+        entries.extend(column.filter_map(|(output, slope)| match slope? {
+            Value::Constant(0.0) => None,
+            slope => Some(Entry { output, input, slope }),
+        }));
+    }
+    entries.sort_by_key(|entry| (entry.output, entry.input));
+    entries
+}
+
+/// The tangents of outputs along a direction of inputs; none where they are 0 whatever the numbers are.
+fn along(
+    assembled: &mut Assembled,
+    direction: impl Fn(usize) -> Option<Value>,
+) -> Vec<Option<Value>> {
+    let Assembled { builder, outputs, .. } = assembled;
+    // Those behind are derivatives themselves.
+    let step = |output: &Value| if let Value::Step(step) = output { Some(*step) } else { None };
+    let n_steps = outputs.iter().filter_map(step).max().map_or(0, |last| last + 1);
     let mut known: Vec<Option<Value>> = Vec::with_capacity(n_steps);
     let tangent_of = |value: Value, known: &[Option<Value>]| match value {
         Value::Constant(_) => None,
-        Value::Input(input) => Some(Value::Input(*inputs + input)),
+        Value::Input(input) => direction(input),
         Value::Step(step) => known[step],
     };
     for index in 0..n_steps {
@@ -31,8 +65,7 @@ pub(crate) fn tangents(assembled: &mut Assembled) -> Vec<Value> {
         };
         known.push(tangent);
     }
-    let of_output = |output: &Value| tangent_of(*output, &known).unwrap_or(Value::Constant(0.0));
-    outputs.iter().map(of_output).collect()
+    outputs.iter().map(|output| tangent_of(*output, &known)).collect()
 }
 
 /// The tangent of an operation on numbers with tangents, of which at least one is not zero.
