@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use dynamics::lyapunov::{Tangent, Times, master_exponents};
+use dynamics::lyapunov::{Integrator, Tangent, Times, master_exponents};
 use dynamics::{
     Coupling, HindmarshRose, InstructionSet, Lanes, Method, Model, Observables, Oscillator, QUIET,
     ROUNDING_KICK, Replica, Schedule, Simulation, SparseMatrix, Text, Work,
@@ -110,7 +110,13 @@ fn observe(criterion: &mut Criterion) {
 
 /// Λ at 121 values of σ about one orbit, and at 32 with orbits of their own, as zeros are refined.
 fn msf(criterion: &mut Criterion) {
-    let times = Times { step: 0.01, transient: 100.0, average: 1000.0, renormalise: 0.5 };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.01,
+        transient: 100.0,
+        average: 1000.0,
+        renormalise: 0.5,
+    };
     let one_orbit: Vec<_> =
         (0..121).map(|k| Tangent { sigma: 0.0125 * f64::from(k), seed: 1 }).collect();
     let own_orbits: Vec<_> = (0..32).map(|seed| Tangent { sigma: 0.9, seed }).collect();

@@ -4,17 +4,21 @@
 //! its orbit `ṡ = F(s)`, or iterated with that of a map, as one system on dual numbers: s is the value, δy the tangent. At σ = 0 its
 //! exponent is the largest Lyapunov exponent of the isolated oscillator.
 //!
+//! The integrator is RK4 with a fixed step, or [`taylor`]; see [`Integrator`].
+//!
 //! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
 //! the logarithms of their growth averaged.
 
 mod growth;
 pub(crate) mod master_equation;
+mod taylor;
 mod tiles;
 
 use rayon::prelude::*;
 
+pub use growth::{Integrator, Tangent, Tangents, Times};
 use growth::{Plan, estimates};
-pub use growth::{Tangent, Tangents, Times};
+use taylor::{Equations, Followed};
 use tiles::Tiles;
 
 use crate::error::check_step;
@@ -23,6 +27,10 @@ use crate::{Coupling, DynamicsError, Estimate, InstructionSet, NodeDynamics, Pro
 
 /// From this many tangents on an orbit is worth computing for them alone, as a plain number.
 const SHARED_ORBIT: usize = 4;
+
+/// Series take the place of RK4 where their mean step is this many of its steps: measured, and rounded up,
+/// for tangents with orbits of their own.
+const LONG: f64 = 8.0;
 
 /// Largest Lyapunov exponents Λ(σ) of the master equation, one for each tangent, per unit of model
 /// time, with standard errors over [`crate::BLOCKS`] blocks. Tangents with one seed have one orbit, and are
@@ -63,9 +71,16 @@ pub fn master_exponents_with(
 ) -> Result<Vec<Estimate>, DynamicsError> {
     check_step(dynamics.is_map(), times.step)?;
     let plan = Plan::new(times)?;
+    let escape_radius = dynamics.escape_radius();
+    let equations = Equations::of(dynamics, coupling);
+    if let Some(followed) = followed(dynamics, equations.as_ref(), times) {
+        return in_batches(tangents, &followed.batches(tangents), |tangents| {
+            let tangents = Tangents { coupling, plan: &plan, tangents, escape_radius, progress };
+            followed.exponents(instruction_set, &tangents)
+        });
+    }
     // Compiled equations take σ DH to be the same everywhere.
     let is_constant = coupling.constant_derivative().is_some();
-    let escape_radius = dynamics.escape_radius();
     let mut order: Vec<usize> = (0..tangents.len()).collect();
     order.sort_by_key(|&index| tangents[index].seed);
     let (shared, alone): (Vec<_>, Vec<_>) = order
@@ -76,24 +91,54 @@ pub fn master_exponents_with(
     // Equations that are not compiled want many numbers at once, but no more than keeps all threads busy.
     let share = tangents.len().div_ceil(rayon::current_num_threads()).next_multiple_of(TILE);
     let at_once = if fused().is_some() { TILE } else { share.clamp(TILE, tiles::MOST) };
-    let batches: Vec<&[usize]> = shared
+    let chunks = shared
         .iter()
         .flat_map(|of_one_seed| of_one_seed.chunks(at_once))
-        .chain(alone.chunks(at_once))
-        .collect();
-    let run = |&batch: &&[usize]| {
-        let tangents: Vec<Tangent> = batch.iter().map(|&index| tangents[index]).collect();
-        let tangents =
-            Tangents { coupling, plan: &plan, tangents: &tangents, escape_radius, progress };
+        .chain(alone.chunks(at_once));
+    let batches: Vec<Vec<usize>> = chunks.map(<[usize]>::to_vec).collect();
+    in_batches(tangents, &batches, |tangents| {
+        let tangents = Tangents { coupling, plan: &plan, tangents, escape_radius, progress };
         match fused() {
             Some(fused) => fused.exponents(instruction_set, &tangents),
             None => tiles::exponents(dynamics, instruction_set, &tangents),
         }
+    })
+}
+
+/// The series by which a master equation is followed, where it is.
+fn followed<'a>(
+    dynamics: &'a dyn NodeDynamics,
+    equations: Option<&'a Equations>,
+    times: &Times,
+) -> Option<Followed<'a>> {
+    match times.integrator {
+        Integrator::Rk4 => None,
+        Integrator::Taylor { tolerance } => Some(Followed::new(dynamics, equations?, tolerance)),
+        Integrator::Auto { tolerance } => {
+            let followed = Followed::new(dynamics, equations?, tolerance);
+            (followed.mean_step() >= LONG * times.step).then_some(followed)
+        }
+    }
+}
+
+/// Whether exponents of these equations come from series at these times, rather than from RK4.
+pub fn takes_series(dynamics: &dyn NodeDynamics, coupling: &Coupling, times: &Times) -> bool {
+    followed(dynamics, Equations::of(dynamics, coupling).as_ref(), times).is_some()
+}
+
+/// Exponents batch by batch on the pool of threads, in the order of tangents.
+fn in_batches(
+    tangents: &[Tangent],
+    batches: &[Vec<usize>],
+    run: impl Fn(&[Tangent]) -> Result<Vec<Estimate>, DynamicsError> + Sync,
+) -> Result<Vec<Estimate>, DynamicsError> {
+    let run = |batch: &Vec<usize>| {
+        run(&batch.iter().map(|&index| tangents[index]).collect::<Vec<Tangent>>())
     };
     let exponents: Vec<_> =
         batches.par_iter().with_max_len(1).map(run).collect::<Result<_, _>>()?;
     let mut in_order = vec![Estimate::default(); tangents.len()];
-    for (&index, exponent) in batches.iter().copied().flatten().zip(exponents.concat()) {
+    for (&index, exponent) in batches.iter().flatten().zip(exponents.concat()) {
         in_order[index] = exponent;
     }
     let overflown = in_order.iter().position(|exponent| !exponent.mean.is_finite());
@@ -124,9 +169,17 @@ pub fn spectrum(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Lorenz, Model, Rossler};
+    use crate::{HindmarshRose, Lorenz, Model, Rossler};
 
-    const TIMES: Times = Times { step: 0.01, transient: 100.0, average: 5000.0, renormalise: 0.5 };
+    const TIMES: Times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.01,
+        transient: 100.0,
+        average: 5000.0,
+        renormalise: 0.5,
+    };
+
+    const SERIES: Integrator = Integrator::Taylor { tolerance: 1e-6 };
 
     fn within(estimate: Estimate, expected: f64, slack: f64) {
         let allowed = 4.0 * estimate.standard_error + slack;
@@ -143,10 +196,13 @@ mod tests {
         let model = Model::Lorenz(Lorenz { alpha: 1.0, r: 0.0, b: 0.5 });
         let z = Coupling::pair(2, 2);
         let tangents = [0.0, 0.25, 2.0].map(|sigma| Tangent { sigma, seed: 1 });
-        let exponents = master_exponents(&model, &z, &TIMES, &tangents, QUIET).unwrap();
-        // At r = 0, α = 1 the x–y block has the double rate −1; the slowest rate wins.
-        for (exponent, expected) in exponents.iter().zip([-0.5, -0.75, -1.0]) {
-            assert!((exponent.mean - expected).abs() < 2e-3, "{exponent:?} against {expected}");
+        for integrator in [Integrator::Rk4, SERIES] {
+            let times = Times { integrator, ..TIMES };
+            let exponents = master_exponents(&model, &z, &times, &tangents, QUIET).unwrap();
+            // At r = 0, α = 1 the x–y block has the double rate −1; the slowest rate wins.
+            for (exponent, expected) in exponents.iter().zip([-0.5, -0.75, -1.0]) {
+                assert!((exponent.mean - expected).abs() < 2e-3, "{exponent:?} against {expected}");
+            }
         }
     }
 
@@ -175,15 +231,19 @@ mod tests {
     fn exponents_have_the_same_bits_in_any_lane() {
         let model = Model::Lorenz(Lorenz::default());
         let coupling = Coupling::pair(0, 1);
-        let times = Times { average: 100.0, ..TIMES };
-        let tangents: Vec<_> =
-            (0..11u32).map(|k| Tangent { sigma: f64::from(k), seed: u64::from(k % 3) }).collect();
-        let together = master_exponents(&model, &coupling, &times, &tangents, QUIET).unwrap();
-        let alone: Vec<_> = tangents
-            .iter()
-            .map(|&t| master_exponents(&model, &coupling, &times, &[t], QUIET).unwrap()[0])
-            .collect();
-        assert_eq!(together, alone);
+        for integrator in [Integrator::Rk4, SERIES] {
+            let times = Times { integrator, average: 100.0, ..TIMES };
+            // Many about the first orbit, of several levels of σ, and few about each of two others.
+            let tangents: Vec<_> = (0..90u32)
+                .map(|k| Tangent { sigma: f64::from(k), seed: u64::from(k.saturating_sub(75) % 3) })
+                .collect();
+            let together = master_exponents(&model, &coupling, &times, &tangents, QUIET).unwrap();
+            let alone: Vec<_> = tangents
+                .iter()
+                .map(|&t| master_exponents(&model, &coupling, &times, &[t], QUIET).unwrap()[0])
+                .collect();
+            assert_eq!(together, alone, "{integrator:?}");
+        }
     }
 
     #[test]
@@ -193,12 +253,49 @@ mod tests {
         let tangents: Vec<_> = (0..20u32)
             .map(|k| Tangent { sigma: f64::from(k) / 4.0, seed: u64::from(k.saturating_sub(15)) })
             .collect();
-        let exponents =
-            |set| master_exponents_with(set, &model, &coupling, &times, &tangents, QUIET).unwrap();
-        let baseline = exponents(InstructionSet::Baseline);
-        for set in InstructionSet::available() {
-            assert_eq!(exponents(set), baseline, "{}", set.name());
+        for integrator in [Integrator::Rk4, SERIES] {
+            let times = Times { integrator, ..times };
+            let exponents = |set| {
+                master_exponents_with(set, &model, &coupling, &times, &tangents, QUIET).unwrap()
+            };
+            let baseline = exponents(InstructionSet::Baseline);
+            for set in InstructionSet::available() {
+                assert_eq!(exponents(set), baseline, "{} {integrator:?}", set.name());
+            }
         }
+    }
+
+    #[test]
+    fn series_and_rk4_agree_within_their_errors() {
+        let cases = [
+            (Model::Lorenz(Lorenz::default()), Coupling::pair(0, 1), 12.0),
+            (Model::Rossler(Rossler::default()), Coupling::pair(0, 0), 5.0),
+            (Model::HindmarshRose(HindmarshRose::default()), Coupling::pair(0, 0), 1.5),
+        ];
+        for (model, coupling, most) in cases {
+            let tangents: Vec<_> = (0..16u64)
+                .map(|k| Tangent { sigma: most * f64::from((k % 4) as u32) / 3.0, seed: k / 4 })
+                .collect();
+            let by = |integrator| {
+                let times = Times { integrator, average: 4000.0, ..TIMES };
+                master_exponents(&model, &coupling, &times, &tangents, QUIET).unwrap()
+            };
+            for (a, b) in by(Integrator::Rk4).into_iter().zip(by(SERIES)) {
+                within(a, b.mean, 4.0 * b.standard_error + 1e-3);
+            }
+        }
+    }
+
+    #[test]
+    fn series_are_taken_where_their_steps_are_long() {
+        let takes = |model: &dyn NodeDynamics, coupling: Coupling| {
+            let times = Times { integrator: Integrator::Auto { tolerance: 1e-6 }, ..TIMES };
+            takes_series(model, &coupling, &times)
+        };
+        let x = || Coupling::pair(0, 0);
+        assert!(takes(&Model::HindmarshRose(HindmarshRose::default()), x()));
+        assert!(takes(&Model::Rossler(Rossler::default()), x()));
+        assert!(!takes(&Model::Lorenz(Lorenz::default()), x()), "it is too fast");
     }
 
     #[test]
@@ -212,7 +309,10 @@ mod tests {
     #[test]
     fn times_that_make_no_sense_are_refused() {
         let refused = |times| spectrum(&Model::Lorenz(Lorenz::default()), &times, 1).unwrap_err();
-        assert_eq!(refused(Times { step: -0.01, ..TIMES }), DynamicsError::BadStep { step: -0.01 });
+        assert_eq!(
+            refused(Times { integrator: Integrator::Rk4, step: -0.01, ..TIMES }),
+            DynamicsError::BadStep { step: -0.01 }
+        );
         assert_eq!(
             refused(Times { average: 0.0, ..TIMES }),
             DynamicsError::TooFewSamples { samples: 0, needed: 20 }

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
+use equations::Program;
+
 use crate::instruction_set::Work;
 use crate::integrators::rk4::{self, Flow};
 use crate::lyapunov::{Tangents, master_equation};
 use crate::stage::{self, Stage};
 use crate::{
     Dual, DynamicsError, Estimate, Fused, InstructionSet, Lanes, Linearised, LinearisedMut,
-    NodeDynamics, Oscillator, Scalar,
+    NodeDynamics, Oscillator, Scalar, trace,
 };
 
 /// Numbers on which equations are evaluated together.
@@ -45,6 +47,10 @@ impl<O: Oscillator<D> + fmt::Debug, const D: usize> NodeDynamics for Native<O, D
     fn tangent_flow(&self, set: InstructionSet, at: Linearised<'_>, slope: LinearisedMut<'_, '_>) {
         let (value, tangent) = (first(at.value), first(at.tangent));
         set.run(LinearisedEverywhere::<O, D> { oscillator: &self.0, value, tangent, slope });
+    }
+
+    fn program(&self) -> Option<Program> {
+        Some(trace(&self.0))
     }
 
     fn fused(&self) -> Option<&dyn Fused> {

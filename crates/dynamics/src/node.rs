@@ -7,6 +7,8 @@
 
 use std::fmt;
 
+use equations::Program;
+
 use crate::linearised::{Linearised, LinearisedMut};
 use crate::lyapunov::Tangents;
 use crate::stage::Stage;
@@ -51,6 +53,12 @@ pub trait NodeDynamics: fmt::Debug + Send + Sync {
 
     /// F(x) and DF(x) δ of every number, in the same layout.
     fn tangent_flow(&self, set: InstructionSet, at: Linearised<'_>, slope: LinearisedMut<'_, '_>);
+
+    /// The same equations as a program, where they can be had so: of it there are series in time. A map
+    /// needs none.
+    fn program(&self) -> Option<Program> {
+        None
+    }
 
     /// The same equations without what goes through memory, where there are such; a map and equations
     /// with a clock have none.

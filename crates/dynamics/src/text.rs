@@ -62,6 +62,10 @@ impl NodeDynamics for Text {
         self.has_clock
     }
 
+    fn program(&self) -> Option<Program> {
+        Some(self.program.clone())
+    }
+
     fn flow(&self, set: InstructionSet, x: &[&[f64]], slope: &mut [&mut [f64]]) {
         evaluate(&self.program, set, x, slope);
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use equations::Program;
+
 use crate::{Fused, InstructionSet, Linearised, LinearisedMut, NodeDynamics};
 
 /// Node dynamics whose orbits have escaped when a component exceeds a radius of one's own.
@@ -45,6 +47,10 @@ impl NodeDynamics for Within {
 
     fn tangent_flow(&self, set: InstructionSet, at: Linearised<'_>, slope: LinearisedMut<'_, '_>) {
         self.dynamics.tangent_flow(set, at, slope);
+    }
+
+    fn program(&self) -> Option<Program> {
+        self.dynamics.program()
     }
 
     fn fused(&self) -> Option<&dyn Fused> {

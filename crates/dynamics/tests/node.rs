@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use dynamics::lyapunov::{Tangent, Times, master_exponents, spectrum};
+use dynamics::lyapunov::{Integrator, Tangent, Times, master_exponents, spectrum};
 use dynamics::{
     Adaptive, AdaptiveOrder, Coupling, Errors, HindmarshRose, InstructionSet, Linearised,
     LinearisedMut, Lorenz, Method, Native, NodeDynamics, Observables, Oscillator, Outcome, Replica,
@@ -103,7 +103,7 @@ fn equations_chosen_at_run_time_give_the_bits_of_compiled_ones() {
                 let compiled = Native::new($oscillator);
                 let of = |dynamics| simulate(dynamics, &coupling, Method::Rk4, &epsilon);
                 assert_eq!(of(Arc::new(compiled)), of(Arc::new(ByFlow(compiled))), "{compiled:?}");
-                let times = Times { step: 0.01, transient: 5.0, average: 50.0, renormalise: 0.5 };
+                let times = Times { integrator: Integrator::Rk4, step: 0.01, transient: 5.0, average: 50.0, renormalise: 0.5 };
                 let tangents: Vec<Tangent> = (0..21u64)
                     .map(|k| Tangent { sigma: 0.2 * k as f64, seed: k / 8 })
                     .collect();
@@ -123,7 +123,13 @@ fn coupling_all_components_alike_takes_sigma_from_every_exponent() {
     let identity: Vec<Vec<f64>> =
         (0..3).map(|d| (0..3).map(|c| f64::from(u8::from(c == d))).collect()).collect();
     let lorenz = Native::new(Lorenz::default());
-    let times = Times { step: 0.005, transient: 20.0, average: 100.0, renormalise: 0.5 };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.005,
+        transient: 20.0,
+        average: 100.0,
+        renormalise: 0.5,
+    };
     let tangents = [0.0, 0.5, 2.0, 7.0].map(|sigma| Tangent { sigma, seed: 1 });
     let exponents =
         master_exponents(&lorenz, &Coupling::matrix(&identity), &times, &tangents, dynamics::QUIET)
@@ -153,7 +159,13 @@ fn a_coupling_matrix_is_what_the_adaptive_method_integrates_too() {
 #[test]
 fn an_oscillator_of_ones_own_has_its_exponents_and_synchronises() {
     let mine = Native::new(StuartLandau { omega: 2.0 });
-    let times = Times { step: 0.01, transient: 50.0, average: 200.0, renormalise: 0.5 };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.01,
+        transient: 50.0,
+        average: 200.0,
+        renormalise: 0.5,
+    };
     // Along the cycle 0, across it −2.
     let exponents = spectrum(&mine, &times, 1).unwrap();
     assert!(exponents[0].mean.abs() < 1e-3, "{exponents:?}");

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use dynamics::lyapunov::{Tangent, Times, master_exponents, spectrum};
+use dynamics::lyapunov::{Integrator, Tangent, Times, master_exponents, spectrum};
 use dynamics::{
     Adaptive, AdaptiveOrder, Coupling, DynamicsError, Errors, HindmarshRose, InstructionSet,
     LinearSteps, Lorenz, Method, Native, NodeDynamics, Observables, Observer, Oscillator, Outcome,
@@ -114,7 +114,13 @@ fn completed(simulation: &Simulation<'_>, epsilon: &[f64]) -> Vec<Errors> {
     outcomes(simulation, epsilon).into_iter().map(errors).collect()
 }
 
-const SHORT: Times = Times { step: 0.01, transient: 5.0, average: 50.0, renormalise: 0.5 };
+const SHORT: Times = Times {
+    integrator: Integrator::Rk4,
+    step: 0.01,
+    transient: 5.0,
+    average: 50.0,
+    renormalise: 0.5,
+};
 
 fn tangents(sigma: impl Iterator<Item = f64>) -> Vec<Tangent> {
     sigma.zip(0u64..).map(|(sigma, k)| Tangent { sigma, seed: k / 8 }).collect()
@@ -198,7 +204,13 @@ fn through_itself(formula: &str) -> Coupling {
 #[test]
 fn the_logistic_map_coupled_through_itself_has_the_exponent_in_closed_form() {
     // δ' = (1 − σ) F'(s) δ: Λ(σ) = ln|1 − σ| + ln 2.
-    let times = Times { step: 1.0, transient: 100.0, average: 40_000.0, renormalise: 1.0 };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: 1.0,
+        transient: 100.0,
+        average: 40_000.0,
+        renormalise: 1.0,
+    };
     let tangents = tangents([0.0, 0.25, 0.5, 0.75, 1.5, 1.9, 3.0, 1e6].into_iter());
     let coupling = through_itself("4*x*(1 - x)");
     let exponents = master_exponents(&logistic(4.0), &coupling, &times, &tangents, QUIET).unwrap();
@@ -213,7 +225,13 @@ fn the_logistic_map_coupled_through_itself_has_the_exponent_in_closed_form() {
 fn tangents_that_vanish_or_grow_beyond_all_numbers_are_answered() {
     let coupling = through_itself("4*x*(1 - x)");
     let of = |sigma: f64, renormalise: f64| {
-        let times = Times { step: 1.0, transient: 100.0, average: 40_000.0, renormalise };
+        let times = Times {
+            integrator: Integrator::Rk4,
+            step: 1.0,
+            transient: 100.0,
+            average: 40_000.0,
+            renormalise,
+        };
         let tangents = [Tangent { sigma, seed: 1 }];
         master_exponents(&logistic(4.0), &coupling, &times, &tangents, QUIET)
     };

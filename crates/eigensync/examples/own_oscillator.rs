@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use eigensync::dynamics::lyapunov::Times;
+use eigensync::dynamics::lyapunov::{Integrator, Times};
 use eigensync::dynamics::{Coupling, Native, Oscillator, Scalar};
 use eigensync::graph::Normalization;
 use eigensync::graph::formats::edge_list;
@@ -42,7 +42,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Node { dynamics: Arc::new(Native::new(neuron)), coupling: Coupling::matrix(&rotation) };
     let mut study = Study::new(network, Normalization::Laplacian, node);
     study.msf.sigma = (0..=40).map(|k| 0.05 * f64::from(k)).collect();
-    study.msf.times = Times { step: 0.001, transient: 50.0, average: 500.0, renormalise: 0.1 };
+    study.msf.times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.001,
+        transient: 50.0,
+        average: 500.0,
+        renormalise: 0.1,
+    };
 
     let found = find(&study, &())?;
     let exponent = found.msf.isolated;

@@ -1,7 +1,7 @@
 //! What is asked: a network, an oscillator, how to compute, and what to simulate.
 
 use clustering::ClusterRule;
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{
     InstructionSet, Method, Observables, ROUNDING_KICK, Replica, Schedule, Series, Simulation,
 };
@@ -78,9 +78,21 @@ impl Study {
     pub fn new(network: Network, normalization: Normalization, node: Node) -> Self {
         let n_components = network.components().len();
         let times = if node.dynamics.is_map() {
-            Times { step: 1.0, transient: 1000.0, average: 1e5, renormalise: 1.0 }
+            Times {
+                integrator: Integrator::Rk4,
+                step: 1.0,
+                transient: 1000.0,
+                average: 1e5,
+                renormalise: 1.0,
+            }
         } else {
-            Times { step: 0.01, transient: 500.0, average: 2e4, renormalise: 0.5 }
+            Times {
+                integrator: Integrator::Rk4,
+                step: 0.01,
+                transient: 500.0,
+                average: 2e4,
+                renormalise: 0.5,
+            }
         };
         Self {
             matrix: CouplingMatrix::new(&network, normalization),

@@ -27,7 +27,7 @@ use std::sync::Arc;
 
 use claims::Claim;
 use clustering::ClusterRule;
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{InstructionSet, NodeDynamics};
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Normalization};
@@ -260,6 +260,7 @@ impl Checker<'_> {
         let interval = (renormalise / step).round().max(1.0) * step;
         self.blocks("msf.average", spec.average, (interval, "`msf.renormalise` in whole steps"))?;
         let times = Times {
+            integrator: Integrator::Rk4,
             step,
             transient: spec.transient / self.shortened,
             average: spec.average / self.shortened,

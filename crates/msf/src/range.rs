@@ -51,11 +51,19 @@ mod tests {
 
     use dynamics::{Coupling, Lorenz, Model};
 
+    use dynamics::lyapunov::Integrator;
+
     use super::*;
 
     #[test]
     fn a_look_begins_at_zero_and_ends_where_the_step_does() {
-        let times = Times { step: 0.01, transient: 100.0, average: 1000.0, renormalise: 0.5 };
+        let times = Times {
+            integrator: Integrator::Rk4,
+            step: 0.01,
+            transient: 100.0,
+            average: 1000.0,
+            renormalise: 0.5,
+        };
         let dynamics = Arc::new(Model::Lorenz(Lorenz::default()));
         let node = Node { dynamics, coupling: Coupling::pair(1, 1) };
         // The fast rate is 1 + σ, and RK4 ends at 2.785 over the step.

@@ -56,9 +56,17 @@ mod tests {
 
     use dynamics::{Coupling, HindmarshRose, Lorenz, Model, Rossler};
 
+    use dynamics::lyapunov::Integrator;
+
     use super::*;
 
-    const TIMES: Times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+    const TIMES: Times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.01,
+        transient: 500.0,
+        average: 4000.0,
+        renormalise: 0.5,
+    };
 
     fn reach_of(model: Model, from: usize, to: usize) -> f64 {
         let node = Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) };

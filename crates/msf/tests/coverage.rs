@@ -8,7 +8,7 @@ mod oracle;
 
 use std::sync::Arc;
 
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{Coupling, InstructionSet, Lorenz, Model, NodeDynamics, Text};
 use equations::{Description, Kind, System};
 use msf::{Node, Refinement, Request, Zero, master_stability};
@@ -41,7 +41,7 @@ fn zeros(case: &Case, length: Length, seed: u64) -> Vec<Zero> {
     let (transient, average) = (1000.0 / shortened, average / shortened);
     let request = Request {
         sigma: case.sigma.clone(),
-        times: Times { step, transient, average, renormalise },
+        times: Times { integrator: Integrator::Rk4, step, transient, average, renormalise },
         refinement: Refinement { relative_error: 1e-3 * shortened.sqrt(), ..Refinement::default() },
         seed,
         instruction_set: InstructionSet::best(),

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{Coupling, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{End, Isolated, MasterStability, Node, Refinement, Request, Zero, master_stability};
 
@@ -20,7 +20,13 @@ fn compute(node: &Node, [from, to]: [f64; 2], points: u32, average: f64) -> Mast
     let step = (to - from) / f64::from(points - 1);
     let request = Request {
         sigma: (0..points).map(|k| from + step * f64::from(k)).collect(),
-        times: Times { step: 0.01, transient: 500.0, average, renormalise: 0.5 },
+        times: Times {
+            integrator: Integrator::Rk4,
+            step: 0.01,
+            transient: 500.0,
+            average,
+            renormalise: 0.5,
+        },
         refinement: Refinement::default(),
         seed: 1,
         instruction_set: InstructionSet::best(),
@@ -87,7 +93,13 @@ fn the_curve_does_not_depend_on_the_number_of_threads() {
 fn quick(model: Model, pair: [usize; 2], sigma: Vec<f64>) -> MasterStability {
     let request = Request {
         sigma,
-        times: Times { step: 0.01, transient: 200.0, average: 1000.0, renormalise: 0.5 },
+        times: Times {
+            integrator: Integrator::Rk4,
+            step: 0.01,
+            transient: 200.0,
+            average: 1000.0,
+            renormalise: 0.5,
+        },
         refinement: Refinement { relative_error: 0.02, max_rounds: 12 },
         seed: 1,
         instruction_set: InstructionSet::best(),

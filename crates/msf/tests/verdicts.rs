@@ -7,7 +7,7 @@ mod oracle;
 
 use std::sync::Arc;
 
-use dynamics::lyapunov::{Tangent, Times, master_exponents};
+use dynamics::lyapunov::{Integrator, Tangent, Times, master_exponents};
 use dynamics::{Closes, Coupling, Estimate, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{MasterStability, Node, Refinement, Request, master_stability};
 
@@ -43,7 +43,13 @@ fn stable_sets_of_limit_cycles_are_those_of_multipliers_computed_elsewhere() {
     for case in oracle::cases().into_iter().step_by(every) {
         let [from, to] = case.pair;
         let node = Node { dynamics: Arc::new(case.model), coupling: Coupling::pair(from, to) };
-        let times = Times { step: 0.01, transient: 100.0, average: 1000.0, renormalise: 0.5 };
+        let times = Times {
+            integrator: Integrator::Rk4,
+            step: 0.01,
+            transient: 100.0,
+            average: 1000.0,
+            renormalise: 0.5,
+        };
         let msf = found(&node, times, 1e-3);
         let what = format!("{:?} {} into {}", case.model, NAMES[from], NAMES[to]);
         let Some(Closes::AfterPeriod { period }) = msf.closes else {
@@ -95,7 +101,13 @@ fn chaotic() -> Vec<Model> {
 /// Signs of Λ at eight σ to an octave, on two orbits that no other exponent has, where both are beyond
 /// doubt.
 fn scan(node: &Node, last: f64) -> Vec<(f64, bool)> {
-    let times = Times { step: 0.01, transient: 500.0, average: 3000.0, renormalise: 0.5 };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: 0.01,
+        transient: 500.0,
+        average: 3000.0,
+        renormalise: 0.5,
+    };
     let sigmas: Vec<f64> =
         (0..).map(|k| last * 0.5f64.powf(f64::from(k) / 8.0)).take_while(|&s| s > 1e-3).collect();
     let signs = [901, 902].map(|seed| {
@@ -122,7 +134,13 @@ fn stable_sets_in_chaos_are_those_of_a_scan_of_many_sigma() {
         let pairs = (0..3).flat_map(|from| (0..3).map(move |to| [from, to]));
         for [from, to] in pairs.filter(|&pair| is_long() || pair == [0, 0]) {
             let node = Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) };
-            let times = Times { step: 0.01, transient: 500.0, average: 4000.0, renormalise: 0.5 };
+            let times = Times {
+                integrator: Integrator::Rk4,
+                step: 0.01,
+                transient: 500.0,
+                average: 4000.0,
+                renormalise: 0.5,
+            };
             let msf = found(&node, times, 0.02);
             let scan = scan(&node, msf.looked.to);
             // A zero is where it is within its error.

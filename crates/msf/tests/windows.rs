@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{Closes, Coupling, HindmarshRose, InstructionSet, Lorenz, Model, Rossler};
 use msf::{End, MasterStability, Node, Refinement, Request, master_stability};
 
@@ -19,7 +19,13 @@ fn found(
     let node = Node { dynamics: Arc::new(model), coupling: Coupling::pair(from, to) };
     let request = Request {
         sigma: Vec::new(),
-        times: Times { step: 0.01, transient, average, renormalise: 0.5 },
+        times: Times {
+            integrator: Integrator::Rk4,
+            step: 0.01,
+            transient,
+            average,
+            renormalise: 0.5,
+        },
         refinement: Refinement { relative_error: 0.003, ..Refinement::default() },
         seed: 1,
         instruction_set: InstructionSet::best(),

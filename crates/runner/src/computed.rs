@@ -11,7 +11,7 @@ pub use sweep::states_of;
 use std::cell::RefCell;
 use std::time::Instant;
 
-use dynamics::lyapunov::Times;
+use dynamics::lyapunov::{Integrator, Times};
 use dynamics::{Progress, Run};
 use eigensync::numbers::{four_digits, two_digits};
 use eigensync::{Compute, Error, Simulated, StepEffect, Study, Sweep, Warning};
@@ -128,8 +128,20 @@ pub fn curve_key(journal: &Journal, node: &Node, request: &msf::Request) -> Key 
 /// Times of a first look at Λ, which finds how far a curve must reach; of a flow with a step, or of a map.
 pub fn first_look(is_map: bool, step: f64) -> Times {
     match is_map {
-        true => Times { step: 1.0, transient: 1000.0, average: 20_000.0, renormalise: 1.0 },
-        false => Times { step, transient: 500.0, average: 4000.0, renormalise: 0.5 },
+        true => Times {
+            integrator: Integrator::Rk4,
+            step: 1.0,
+            transient: 1000.0,
+            average: 20_000.0,
+            renormalise: 1.0,
+        },
+        false => Times {
+            integrator: Integrator::Rk4,
+            step,
+            transient: 500.0,
+            average: 4000.0,
+            renormalise: 0.5,
+        },
     }
 }
 

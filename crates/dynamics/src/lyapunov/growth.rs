@@ -7,11 +7,30 @@ use crate::error::{check_times, whole};
 use crate::statistics::BLOCKS;
 use crate::{Coupling, DynamicsError, Estimate, Progress};
 
-/// Times of an average over an orbit, in model time units, with a fixed RK4 step; of a map, in
-/// iterations, and the step is 1.
+/// How the master equation of a flow is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub enum Integrator {
+    /// Classical fourth-order Runge–Kutta with the fixed step of [`Times::step`].
+    Rk4,
+    /// Taylor series, in steps as long as they may be. Equations that have no series, since they have
+    /// pieces or are not known as a program, go by RK4.
+    Taylor {
+        /// Local error of a step, relative to the state or to the box of initial states, whichever is larger.
+        tolerance: f64,
+    },
+    /// Taylor series where they are the faster of the two, and RK4 elsewhere.
+    Auto {
+        /// As of [`Integrator::Taylor`].
+        tolerance: f64,
+    },
+}
+
+/// Times of an average over an orbit, in model time units; of a map, in iterations, and the step is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Times {
-    /// Step of the integrator.
+    /// The integrator.
+    pub integrator: Integrator,
+    /// Step of RK4, and the unit in which progress is told.
     pub step: f64,
     /// Time in which the orbit settles and the tangent turns into its direction of fastest growth.
     pub transient: f64,
@@ -74,6 +93,16 @@ impl Plan {
 
     fn interval(&self) -> f64 {
         self.steps_per_interval as f64 * self.step
+    }
+
+    /// The time before the average, and of a block of it.
+    pub(super) fn transient_and_block(&self) -> [f64; 2] {
+        [self.transient_intervals, self.intervals_per_block].map(|n| n as f64 * self.interval())
+    }
+
+    /// Steps of RK4 up to a time.
+    pub(super) fn steps_until(&self, time: f64) -> u64 {
+        whole(time / self.step)
     }
 
     /// Runs tangents through the transient and all blocks, scaled anew after every interval; returns

@@ -31,6 +31,9 @@ pub(crate) fn exponents<O: Oscillator<D>, const D: usize>(
     match (one_orbit, of.len()) {
         (true, 1) => run!(f64, 1),
         (true, 2..=8) => run!(f64, 8),
+        // Where vectors are this wide, an orbit beside each tangent costs less than one that is spread over
+        // all of them.
+        (true, _) if set == InstructionSet::Avx512 => run!(Lanes<TILE>, TILE),
         (true, _) => run!(f64, TILE),
         (false, ..=4) => run!(Lanes<4>, 4),
         (false, 5..=8) => run!(Lanes<8>, 8),

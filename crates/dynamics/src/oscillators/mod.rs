@@ -48,6 +48,10 @@ macro_rules! models {
                 match self { $(Self::$name(o) => Native::new(*o).tangent_flow(set, at, slope)),* }
             }
 
+            fn program(&self) -> Option<Program> {
+                match self { $(Self::$name(o) => Native::new(*o).program()),* }
+            }
+
             fn fused(&self) -> Option<&dyn Fused> {
                 Some(self)
             }

@@ -1,6 +1,6 @@
 //! Oscillators in Rust and their text.
 
-use dynamics::lyapunov::{Times, spectrum};
+use dynamics::lyapunov::{Integrator, Times, spectrum};
 use dynamics::{Model, NodeDynamics};
 use equations::Program;
 use indexmap::IndexMap;
@@ -8,7 +8,13 @@ use oscillators::{find, library};
 
 use crate::{dynamics, flow, states, tangent};
 
-const SHORT: Times = Times { step: 0.01, transient: 5.0, average: 50.0, renormalise: 0.5 };
+const SHORT: Times = Times {
+    integrator: Integrator::Rk4,
+    step: 0.01,
+    transient: 5.0,
+    average: 50.0,
+    renormalise: 0.5,
+};
 
 #[test]
 fn every_compiled_oscillator_has_a_text_with_its_bits() {

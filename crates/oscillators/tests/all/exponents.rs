@@ -1,6 +1,6 @@
 //! Lyapunov spectra: published ones, and what their sums have to be.
 
-use dynamics::lyapunov::{Times, spectrum};
+use dynamics::lyapunov::{Integrator, Times, spectrum};
 use dynamics::{Estimate, NodeDynamics};
 use nalgebra::DMatrix;
 use oscillators::{Entry, Kind, Published, library};
@@ -11,7 +11,13 @@ use crate::{dynamics, long, states, tangent};
 /// All exponents, descending.
 fn exponents(entry: &Entry, dynamics: &dyn NodeDynamics, average: f64) -> Vec<Estimate> {
     let renormalise = if entry.kind() == Kind::Map { 1.0 } else { 0.5 };
-    let times = Times { step: entry.step, transient: 500.0, average, renormalise };
+    let times = Times {
+        integrator: Integrator::Rk4,
+        step: entry.step,
+        transient: 500.0,
+        average,
+        renormalise,
+    };
     let mut exponents =
         spectrum(dynamics, &times, 1).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
     // That of time is found last, whatever the others are.

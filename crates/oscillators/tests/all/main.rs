@@ -5,6 +5,7 @@ mod exponents;
 mod listing;
 mod mistakes;
 mod orbits;
+mod series;
 
 use dynamics::{InstructionSet, Linearised, LinearisedMut, NodeDynamics};
 use indexmap::IndexMap;

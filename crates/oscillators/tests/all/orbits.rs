@@ -1,6 +1,6 @@
 //! What orbits from the boxes of initial states do, and derivatives along them.
 
-use dynamics::lyapunov::{Tangent, Times, master_exponents};
+use dynamics::lyapunov::{Integrator, Tangent, Times, master_exponents};
 use dynamics::{Coupling, QUIET};
 use oscillators::{Behaviour, Entry, Kind, find, library};
 use rayon::prelude::*;
@@ -46,7 +46,8 @@ fn behaves(entry: &Entry, n_seeds: u64) {
     const TIME: f64 = 2000.0;
     let step = entry.step;
     let renormalise = if entry.kind() == Kind::Map { 1.0 } else { 0.5 };
-    let times = Times { step, transient: 200.0, average: TIME, renormalise };
+    let times =
+        Times { integrator: Integrator::Rk4, step, transient: 200.0, average: TIME, renormalise };
     let tangents: Vec<_> = (0..n_seeds).map(|seed| Tangent { sigma: 0.0, seed }).collect();
     let coupling = Coupling::pair(0, 0);
     let exponents = master_exponents(&*dynamics(entry), &coupling, &times, &tangents, QUIET)
