@@ -15,7 +15,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use toml::toml;
 
-use crate::begun::Begun;
+use crate::begun::{Begun, Kept};
 use crate::options::{NodeArgs, table, text};
 use crate::output::{document, say, tell};
 use crate::run::seconds;
@@ -54,6 +54,10 @@ pub struct Args {
     /// Compute all anew: take over nothing of an earlier run that was stopped before its end
     #[arg(long)]
     fresh: bool,
+    /// Take no curve from the cache, where earlier runs left theirs, and leave none there. It is the folder
+    /// that EIGENSYNC_CACHE names, or eigensync in the user's folder of caches
+    #[arg(long)]
+    no_cache: bool,
     /// Print one JSON document, and nothing else, on standard output
     #[arg(long)]
     json: bool,
@@ -82,7 +86,10 @@ struct Summary {
 pub fn run(args: &Args) -> Result<()> {
     let started = Instant::now();
     let id = id(&args.node);
-    let (made_from, how) = (("msf", Path::new("")), (args.quick, args.fresh));
+    let (made_from, how) = (
+        ("msf", Path::new("")),
+        Kept { quick: args.quick, fresh: args.fresh, no_cache: args.no_cache },
+    );
     let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let mut place = Some(place);
     let computed = || {

@@ -9,6 +9,7 @@ mod begun;
 mod cli;
 mod closing;
 mod curve;
+mod first_answer;
 mod list;
 mod options;
 mod oscillators;

@@ -11,7 +11,8 @@ use eigensync::Wanted;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value, toml};
 
-use crate::begun::Begun;
+use crate::begun::{Begun, Kept};
+use crate::first_answer::{self, FirstWork};
 use crate::options::{NodeArgs, NodeTables, table, text};
 use crate::output::{document as print_document, say, tell};
 use crate::run::seconds;
@@ -27,6 +28,8 @@ use user::{Problem, Result, Stages};
 
 /// Longest network from standard input, in bytes.
 const MOST_BYTES: u64 = 1 << 30;
+/// Time of the average behind each exponent: as many follow as the accuracy of zeros asks for.
+const AVERAGE: f64 = 5e3;
 /// Digits of the SHA-256 of a network without a name that its results are called after.
 const NAME_DIGITS: usize = 8;
 
@@ -68,12 +71,20 @@ pub struct Args {
     /// symmetrise=mean, symmetrise=max
     #[arg(long, value_name = "STEP", value_delimiter = ',')]
     prepare: Vec<String>,
-    /// Shorter averages for the master stability function: a first look
+    /// Standard error at which a zero of the master stability function is known well enough, relative to it;
+    /// a first answer comes at once, to about a per cent
+    #[arg(long, value_name = "SHARE", default_value_t = 1e-3)]
+    accuracy: f64,
+    /// Shorter averages for the master stability function, and no other answer: a first look
     #[arg(long)]
     quick: bool,
-    /// Compute all anew: take over nothing of an earlier run that was stopped before its end
+    /// Compute all anew: take over nothing of an earlier run
     #[arg(long)]
     fresh: bool,
+    /// Take no curve from the cache, where earlier runs left theirs, and leave none there. It is the folder
+    /// that EIGENSYNC_CACHE names, or eigensync in the user's folder of caches
+    #[arg(long)]
+    no_cache: bool,
     /// Print one JSON document, `summary.json`, and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -142,15 +153,25 @@ pub fn run(args: &Args) -> Result<()> {
     let id = id(&input.file)?;
     let node = args.node.tables()?;
     let document = experiment(args, &node, &input)?;
-    let (made_from, how) = (("predict", &*input.named), (args.quick, args.fresh));
+    let (made_from, how) = (
+        ("predict", &*input.named),
+        Kept { quick: args.quick, fresh: args.fresh, no_cache: args.no_cache },
+    );
     let Begun { stages, place, journal } = Begun::new(&args.results, &id, made_from, how)?;
     let origin = place.origin().clone();
     // It outlives a failure, so that it is the journal that says whether there is work to keep.
     let mut place = Some(place);
     let predicted = || {
-        let plan = plan(args, document, &input, (&origin.file, &id, &stages))?;
+        let mut plan = plan(args, document, &input, (&origin.file, &id, &stages))?;
+        let mut curves = Curves::of_two_answers();
+        if !args.quick {
+            let unwatched = Stages::new(&id, Arc::new(()));
+            let (plan, stages) = (&mut plan, &unwatched);
+            let mut work = FirstWork { plan, journal: &journal, stages };
+            first_answer::tell(&mut work, &mut curves);
+        }
         let work = Work { plan: &plan, journal: &journal, stages: &stages };
-        let found = findings::find(&work, &mut Curves::default())
+        let found = findings::find(&work, &mut curves)
             .map_err(|problem| problem.renamed(&plan.file, &input.named))?;
         let place = place.take().expect("results are written once");
         let took = || started.elapsed();
@@ -181,7 +202,8 @@ fn plan(
     (origin, id, stages): (&Path, &str, &Stages),
 ) -> Result<Plan> {
     let file = input.file.with_extension("toml");
-    document.insert("msf".into(), table([("average", 4e4.into())]));
+    let msf = [("average", AVERAGE.into()), ("relative_error", args.accuracy.into())];
+    document.insert("msf".into(), table(msf));
     let asked = text(&document)?;
     let text = Text { text: &asked, id, file: &file, network: input.given.clone() };
     let plan = plan_of(&text, args.quick, stages);

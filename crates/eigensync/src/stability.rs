@@ -2,6 +2,7 @@
 //! the look, attractors of several kinds, and what an isolated oscillator does.
 
 use dynamics::Estimate;
+use dynamics::lyapunov::{Integrator, takes_series};
 use msf::{Attractor, End, Isolated, Zero};
 
 use crate::numbers::{four_digits, plain, with_error};
@@ -84,8 +85,8 @@ fn unrefined(study: &Study, zero: Zero) -> String {
     let by_step = zero.certain_step_shift();
     let why = match by_step.filter(|shift| shift.mean.abs() > asked * zero.sigma) {
         Some(shift) => format!(
-            "half of `msf.step` = {} moves it by {}. A shorter step would help",
-            plain(study.msf.times.step),
+            "{} moves it by {}, and would help",
+            finer(study),
             with_error(shift.mean, shift.standard_error)
         ),
         None => "a longer `msf.average` or a finer grid near it would help".to_owned(),
@@ -97,6 +98,20 @@ fn unrefined(study: &Study, zero: Zero) -> String {
     )
 }
 
+/// What was tried beside the integrator that was asked for.
+fn finer(study: &Study) -> String {
+    let msf::Node { dynamics, coupling } = &study.node;
+    let times = &study.msf.times;
+    match times.integrator {
+        Integrator::Taylor { tolerance } | Integrator::Auto { tolerance }
+            if takes_series(dynamics.as_ref(), coupling, times) =>
+        {
+            format!("a thousandth of `msf.tolerance` = {}", plain(tolerance))
+        }
+        _ => format!("half of `msf.step` = {}", plain(times.step)),
+    }
+}
+
 /// Whether a change by the step matters beside the number.
 fn is_large(shift: Estimate, number: Estimate) -> bool {
     shift.mean.abs() > STEP_MATTERS * number.mean.abs()
@@ -104,8 +119,8 @@ fn is_large(shift: Estimate, number: Estimate) -> bool {
 
 fn shifted_isolated(study: &Study, shift: Estimate) -> String {
     format!(
-        "half of `msf.step` = {} changes Λ(0) by {}, and the curve Λ(sigma) likewise: take a shorter step",
-        plain(study.msf.times.step),
+        "{} changes Λ(0) by {}, and the curve Λ(sigma) likewise, and would be better",
+        finer(study),
         with_error(shift.mean, shift.standard_error)
     )
 }

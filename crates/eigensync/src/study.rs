@@ -87,7 +87,7 @@ impl Study {
             }
         } else {
             Times {
-                integrator: Integrator::Rk4,
+                integrator: Integrator::Auto { tolerance: 1e-6 },
                 step: 0.01,
                 transient: 500.0,
                 average: 2e4,

@@ -45,7 +45,7 @@ pub use series::Recorded;
 use crate::hashes::{links_hash, plan_hash};
 use crate::load::{self, AnyDocument, Document};
 use crate::spec::{
-    Experiment, FigureKind, FigureSpec, MatrixKind, NetworkSpec, RegionsSpec, StepSpec,
+    Experiment, FigureKind, FigureSpec, MatrixKind, MsfMethod, NetworkSpec, RegionsSpec, StepSpec,
     ThresholdSpec,
 };
 use user::{Problem, Result, Stages};
@@ -256,11 +256,16 @@ impl Checker<'_> {
             let message = format!("is {}, but a map goes in steps of 1", plain(renormalise));
             return Err(self.problem("msf.renormalise", message).hint("take a whole number"));
         }
+        self.positive("msf.tolerance", spec.tolerance)?;
         self.positive("msf.relative_error", spec.relative_error)?;
         let interval = (renormalise / step).round().max(1.0) * step;
         self.blocks("msf.average", spec.average, (interval, "`msf.renormalise` in whole steps"))?;
         let times = Times {
-            integrator: Integrator::Rk4,
+            integrator: match spec.method {
+                MsfMethod::Auto => Integrator::Auto { tolerance: spec.tolerance },
+                MsfMethod::Rk4 => Integrator::Rk4,
+                MsfMethod::Taylor => Integrator::Taylor { tolerance: spec.tolerance },
+            },
             step,
             transient: spec.transient / self.shortened,
             average: spec.average / self.shortened,
@@ -275,7 +280,7 @@ impl Checker<'_> {
             refinement: msf::Refinement {
                 // Shorter averages are for a first look, with larger errors.
                 relative_error: spec.relative_error * self.shortened.sqrt(),
-                ..msf::Refinement::default()
+                max_rounds: rounds(spec.average),
             },
             seed: self.experiment.seed,
             instruction_set: InstructionSet::best(),
@@ -292,6 +297,13 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// Rounds of refinement: as much time for short averages as for those of 20,000.
+fn rounds(average: f64) -> usize {
+    const LONG: f64 = 2e4;
+    let rounds = msf::Refinement::default().max_rounds;
+    (LONG / average).ceil().clamp(1.0, 100.0) as usize * rounds
 }
 
 impl Plan {

@@ -5,7 +5,7 @@
 
 mod atlas;
 mod coupling;
-mod defaults;
+pub(crate) mod defaults;
 mod format;
 mod named;
 mod network;
@@ -95,8 +95,14 @@ pub struct MsfSpec {
     /// Values of the generic coupling strength σ, from zero or above; left out, Λ is looked at as far as the
     /// step goes.
     pub sigma: Option<Grid>,
-    /// Step of the integrator, 0.01 where it is left out; of a map 1.
+    /// The integrator of exponents; a map is iterated whatever is said here.
+    #[serde(default)]
+    pub method: MsfMethod,
+    /// Step of RK4, 0.01 where it is left out; of a map 1.
     pub step: Option<f64>,
+    /// Local error of a step of Taylor series.
+    #[serde(default = "defaults::millionth")]
+    pub tolerance: f64,
     /// Time before the averages begin.
     #[serde(default = "defaults::thousand")]
     pub transient: f64,
@@ -108,6 +114,19 @@ pub struct MsfSpec {
     /// Standard error at which a zero of Λ is known well enough, relative to it.
     #[serde(default = "defaults::per_mille")]
     pub relative_error: f64,
+}
+
+/// Integrators of the master equation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MsfMethod {
+    /// Taylor series where these are faster than RK4.
+    #[default]
+    Auto,
+    /// Classical fourth-order Runge–Kutta with a fixed step.
+    Rk4,
+    /// Taylor series, with steps as long as they may be.
+    Taylor,
 }
 
 /// `[prediction]`: what makes a cluster.

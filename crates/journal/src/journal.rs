@@ -10,6 +10,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use user::{Problem, Result, Watch};
 
+use crate::cache::Cache;
 use crate::log::{Damage, Log};
 use crate::snapshots::{self, Snapshots};
 use crate::trajectory::{self, Trajectory};
@@ -41,6 +42,7 @@ pub struct Journal {
     log: Mutex<Log>,
     snapshots: Snapshots,
     state: Mutex<State>,
+    cache: Option<Cache>,
 }
 
 /// What has become of it in this run.
@@ -115,7 +117,15 @@ impl Journal {
             log: Mutex::new(log),
             snapshots,
             state: Mutex::default(),
+            cache: None,
         })
+    }
+
+    /// The same beside a cache, from which it takes what it does not have and in which it keeps what other
+    /// runs may want.
+    #[must_use]
+    pub fn with_cache(self, cache: Option<Cache>) -> Self {
+        Self { cache, ..self }
     }
 
     /// The key of a kind of work that depends on some content, done by this program.
@@ -125,6 +135,17 @@ impl Journal {
 
     /// What was computed under a key, if it is there.
     pub fn take<T: DeserializeOwned>(&self, kind: Kind, key: &Key) -> Option<T> {
+        self.take_own(kind, key).or_else(|| {
+            let payload = self.cache_for(kind)?.get(kind, key)?;
+            postcard::from_bytes(&payload).ok()
+        })
+    }
+
+    fn cache_for(&self, kind: Kind) -> Option<&Cache> {
+        self.cache.as_ref().filter(|_| Cache::is_for(kind))
+    }
+
+    fn take_own<T: DeserializeOwned>(&self, kind: Kind, key: &Key) -> Option<T> {
         let mut log = lock(&self.log);
         let found = log.find(key).filter(|found| found.kind == kind)?;
         let value = postcard::from_bytes(&log.payload(&found).ok()?).ok()?;
@@ -147,6 +168,14 @@ impl Journal {
         self.begin();
         if self.append(kind, key, value) {
             lock(&self.state).held.count(kind);
+        }
+        if let Some(cache) = self.cache_for(kind)
+            && let Ok(payload) = postcard::to_stdvec(value)
+            && let Err(error) = cache.put(kind, key, &payload)
+        {
+            let text = "the curve cannot be kept for other runs in";
+            let folder = cache.folder().display();
+            self.watch.noted(&format!("{}: {text} {folder}: {error}", self.id));
         }
     }
 

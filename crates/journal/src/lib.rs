@@ -8,6 +8,7 @@
 //! `record` is the form of the records, `log` the file, `snapshots` the states of what still runs, and `trajectory` those on the way that a user
 //! asks for.
 
+mod cache;
 mod held;
 mod journal;
 mod key;
@@ -18,6 +19,7 @@ mod snapshots;
 mod trajectory;
 mod worth;
 
+pub use cache::Cache;
 pub use held::Held;
 pub use journal::{Journal, is_its};
 pub use key::Key;

@@ -15,7 +15,7 @@ const CERTAIN: f64 = 3.0;
 pub(crate) enum Step {
     /// As asked for.
     Asked,
-    /// Half of it, over the same time.
+    /// Half of it, or a thousandth of the tolerance of series, over the same time.
     Halved,
     /// As asked for, of orbits that have settled for longer by the time of an average.
     Later,

@@ -100,7 +100,7 @@ impl Work<'_> {
         let mut times = self.request.times;
         match step {
             Step::Asked => {}
-            Step::Halved => times.step *= 0.5,
+            Step::Halved => times = times.finer(),
             Step::Later => times.transient += times.average,
         }
         self.exponents_over(&times, tangents)

@@ -24,9 +24,21 @@ use journal::{Journal, Key, Kind, is_worth_keeping};
 
 use crate::Work;
 
-/// The master stability functions computed so far: experiments that ask for the same one share it.
+/// The master stability functions computed so far: experiments that ask for the same one share it. And the
+/// last spectrum, for an answer that is made twice.
 #[derive(Default)]
-pub struct Curves(Vec<(Node, msf::Request, MasterStability)>);
+pub struct Curves {
+    known: Vec<(Node, msf::Request, MasterStability)>,
+    spectrum: Option<(Key, Spectrum)>,
+    keeps_spectrum: bool,
+}
+
+impl Curves {
+    /// For an answer that is made twice, with one spectrum.
+    pub fn of_two_answers() -> Self {
+        Self { keeps_spectrum: true, ..Self::default() }
+    }
+}
 
 /// Computes the study of a plan, and tells whoever watches.
 pub struct Kept<'a> {
@@ -51,7 +63,7 @@ impl Compute for Kept<'_> {
         let same = |known: &&(Node, msf::Request, MasterStability)| {
             known.0 == plan.node && known.1 == study.msf
         };
-        let known = curves.0.iter().find(same).map(|(_, _, curve)| curve.clone());
+        let known = curves.known.iter().find(same).map(|(_, _, curve)| curve.clone());
         let is_known = known.is_some();
         let key = curve_key(journal, &plan.node, &study.msf);
         let curve = journal.once((Kind::Curve, key), || {
@@ -66,7 +78,7 @@ impl Compute for Kept<'_> {
         });
         let curve = curve.map_err(Error::Curve)?;
         if !is_known {
-            curves.0.push((plan.node.clone(), study.msf.clone(), curve.clone()));
+            curves.known.push((plan.node.clone(), study.msf.clone(), curve.clone()));
         }
         Ok(curve)
     }
@@ -78,6 +90,11 @@ impl Compute for Kept<'_> {
         if let Some(spectrum) = journal.take(Kind::Spectrum, &key) {
             return Ok(spectrum);
         }
+        if let Some((known, spectrum)) = &self.curves.borrow().spectrum
+            && *known == key
+        {
+            return Ok(spectrum.clone());
+        }
         let started = Instant::now();
         let spectrum = stages.told("spectrum", |tell| {
             spectra::leading_modes_with(&study.matrix, request, &|advance| tell(&advanced(advance)))
@@ -86,6 +103,10 @@ impl Compute for Kept<'_> {
         let bytes = 8.0 * spectrum.n_modes() as f64 * study.network.n_nodes() as f64;
         if is_worth_keeping(bytes, started.elapsed()) {
             journal.keep(Kind::Spectrum, &key, &spectrum);
+        }
+        let mut curves = self.curves.borrow_mut();
+        if curves.keeps_spectrum {
+            curves.spectrum = Some((key, spectrum.clone()));
         }
         Ok(spectrum)
     }
@@ -136,7 +157,7 @@ pub fn first_look(is_map: bool, step: f64) -> Times {
             renormalise: 1.0,
         },
         false => Times {
-            integrator: Integrator::Rk4,
+            integrator: Integrator::Auto { tolerance: 1e-6 },
             step,
             transient: 500.0,
             average: 4000.0,

@@ -58,7 +58,22 @@ pub struct Tangents<'a> {
     pub(super) progress: Progress<'a>,
 }
 
+/// Below this tolerance nothing but rounding is left of a local error.
+const LEAST_TOLERANCE: f64 = 1e-15;
+
 impl Times {
+    /// The same with half the step and a thousandth of the tolerance, by which to judge these.
+    #[must_use]
+    pub fn finer(self) -> Self {
+        let finer = |tolerance: f64| (1e-3 * tolerance).max(LEAST_TOLERANCE);
+        let integrator = match self.integrator {
+            Integrator::Rk4 => Integrator::Rk4,
+            Integrator::Taylor { tolerance } => Integrator::Taylor { tolerance: finer(tolerance) },
+            Integrator::Auto { tolerance } => Integrator::Auto { tolerance: finer(tolerance) },
+        };
+        Self { integrator, step: 0.5 * self.step, ..self }
+    }
+
     /// Steps of one tangent from its start to its end.
     pub fn steps(&self) -> u64 {
         whole((self.transient + self.average) / self.step)

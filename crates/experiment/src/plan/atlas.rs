@@ -12,9 +12,10 @@ use super::node::Function;
 use super::node::Node;
 use crate::hashes::plan_hash;
 use crate::load::Document;
+use crate::spec::defaults::millionth;
 use crate::spec::{
-    Atlas, CommunitiesSpec, CouplingSpec, Experiment, FigureSpec, Grid, MatrixKind, MsfSpec,
-    NetworkSpec, OscillatorSpec, PredictionSpec, PublishedSpec, SpectrumSpec, SystemSpec,
+    Atlas, CommunitiesSpec, CouplingSpec, Experiment, FigureSpec, Grid, MatrixKind, MsfMethod,
+    MsfSpec, NetworkSpec, OscillatorSpec, PredictionSpec, PublishedSpec, SpectrumSpec, SystemSpec,
 };
 
 /// Fewest σ of a curve: fewer show no window.
@@ -238,7 +239,9 @@ fn experiment(atlas: &Atlas, spec: &SystemSpec) -> Experiment {
     };
     let msf = MsfSpec {
         sigma: Some(Grid::List(vec![0.0, 1.0])),
+        method: MsfMethod::default(),
         step: spec.step.or(of_library),
+        tolerance: millionth(),
         transient: atlas.msf.transient,
         average: spec.average.unwrap_or(atlas.msf.average),
         renormalise: atlas.msf.renormalise,

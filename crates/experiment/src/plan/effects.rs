@@ -2,7 +2,7 @@
 //! told that it would not come.
 
 use super::checker::Checker;
-use crate::spec::{FigureKind, MethodKind, NetworkSpec};
+use crate::spec::{FigureKind, MethodKind, MsfMethod, NetworkSpec};
 use graph::formats::{Choice, FORMATS};
 use user::Result;
 
@@ -37,6 +37,10 @@ impl Checker<'_> {
             let reason = "the steps of rk4 are all `sweep.step` long; the adaptive methods, dopri5 \
                           and dop853, have a tolerance";
             self.without_effect("sweep", "tolerance", reason)?;
+        }
+        if self.experiment.msf.method == MsfMethod::Rk4 {
+            let reason = "the steps of rk4 are all `msf.step` long; Taylor series have a tolerance";
+            self.without_effect("msf", "tolerance", reason)?;
         }
         if self.experiment.sweep.is_none() && self.experiment.regions.is_some() {
             let reason = "regions are compared at the couplings of a [sweep], and there is none";

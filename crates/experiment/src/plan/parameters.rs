@@ -1,6 +1,7 @@
 //! Every parameter that a run used, in the words of experiment files: what the file says, the defaults
 //! for what it leaves out, and what `--quick` made of the times.
 
+use dynamics::lyapunov::takes_series;
 use dynamics::{Adaptive, AdaptiveOrder, Method};
 use serde_json::{Value, json};
 
@@ -23,6 +24,17 @@ pub fn of(experiment: &Experiment, study: &Study) -> Value {
     }
     set("/spectrum/modes", json!(study.modes.wanted()));
     set("/spectrum/tolerance", json!(study.modes.tolerance()));
+    let msf::Node { dynamics, coupling } = &study.node;
+    let has_series = takes_series(dynamics.as_ref(), coupling, &study.msf.times);
+    let by = match has_series {
+        _ if dynamics.is_map() => "iterate",
+        true => "taylor",
+        false => "rk4",
+    };
+    set("/msf/method", json!(by));
+    if !has_series {
+        set("/msf/tolerance", Value::Null);
+    }
     set("/msf/step", json!(study.msf.times.step));
     set("/msf/renormalise", json!(study.msf.times.renormalise));
     set("/msf/transient", json!(study.msf.times.transient));

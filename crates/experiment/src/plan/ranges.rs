@@ -71,6 +71,7 @@ impl Checker<'_> {
     pub(super) fn msf_ranges(&self, step: f64, renormalise: f64) -> Result<()> {
         let spec = &self.experiment.msf;
         self.within("msf.step", step, STEP)?;
+        self.within("msf.tolerance", spec.tolerance, TOLERANCE)?;
         self.within("msf.renormalise", renormalise, RENORMALISE)?;
         self.within("msf.relative_error", spec.relative_error, RELATIVE_ERROR)
     }

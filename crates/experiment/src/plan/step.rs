@@ -1,6 +1,7 @@
 //! Whether RK4 can take the step that is asked of it, at the largest σ = ε|λ| that a run comes to: the
 //! σ of the last point of the curve, and for a sweep its largest ε times |λ_N|.
 
+use dynamics::lyapunov::takes_series;
 use dynamics::{LinearSteps, Method, StepVerdict};
 use eigensync::numbers::{four_digits, plain, two_digits};
 use eigensync::{Study, Sweep, Warning};
@@ -26,7 +27,10 @@ impl Checker<'_> {
     pub(super) fn steps(&self, study: &Study) -> Result<Vec<Warning>> {
         let mut doubts = Vec::new();
         let step = study.msf.times.step;
+        let msf::Node { dynamics, coupling } = &study.node;
         if let Some(&last) = study.msf.sigma.last()
+            // The steps of series follow from what they have to damp.
+            && !takes_series(dynamics.as_ref(), coupling, &study.msf.times)
             && let Some(steps) = self.linear_steps(study, step)
         {
             let of_msf = Step {

@@ -16,6 +16,10 @@ pub(super) fn per_mille() -> f64 {
     1e-3
 }
 
+pub(crate) fn millionth() -> f64 {
+    1e-6
+}
+
 pub(super) fn billionth() -> f64 {
     1e-9
 }
