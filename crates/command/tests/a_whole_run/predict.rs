@@ -100,3 +100,51 @@ fn steps_of_preparation_and_a_format_can_be_named() {
     let (said, _) = predict(&place, "matrix", &prepared, 0);
     assert!(said.contains("2 nodes, 1 links, connected"), "{said}");
 }
+
+/// Two logistic maps, of which Λ(σ) = ln|1 − σ| + ln 2 vanishes at 1/2 and 3/2.
+const LOGISTIC: [&str; 6] =
+    ["--oscillator", "logistic", "--coupling", "x:x", "--matrix", "laplacian"];
+
+#[test]
+fn a_first_answer_comes_before_the_whole_one() {
+    let place = with_network();
+    let (said, told) = predict(&place, "six.edges", &LOGISTIC, 0);
+    let (first, rest) = told.split_once("first answer").unwrap_or_else(|| panic!("{told}"));
+    assert!(!first.contains("sigma"), "{told}");
+    assert!(rest.contains("stable for") && rest.contains("now to 0.001"), "{told}");
+    assert!(said.contains("stable for") && !said.contains("first answer"), "{said}");
+    let zeros = place.json("results/six/summary.json")["msf"]["zeros"].clone();
+    for (zero, exact) in zeros.as_array().unwrap().iter().zip([0.5, 1.5]) {
+        let [sigma, error] = ["sigma", "standard_error"].map(|key| zero[key].as_f64().unwrap());
+        assert!(error <= 1e-3 * exact && (sigma - exact).abs() < 4.0 * error, "{zero}");
+    }
+}
+
+#[test]
+fn curves_are_taken_from_the_cache_and_computed_again_where_it_is_damaged() {
+    let place = with_network();
+    let cache = place.path("cache");
+    let predicted = |options: &[&str]| {
+        let arguments = [&["predict", "six.edges"], &LOGISTIC[..], options].concat();
+        let mut command = place.eigensync(&arguments);
+        let output = command.env("EIGENSYNC_CACHE", &cache).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        place.json("results/six/summary.json")["msf"].clone()
+    };
+    let first = predicted(&["--no-cache"]);
+    assert!(place.names("cache").is_empty(), "nothing is left where none is wanted");
+    assert_eq!(predicted(&[]), first);
+    let names = place.names("cache");
+    assert_eq!(names.len(), 2, "a curve of each answer: {names:?}");
+    let written = |name: &str| cache.join(name).metadata().unwrap().modified().unwrap();
+    let before: Vec<_> = names.iter().map(|name| written(name)).collect();
+    assert_eq!(predicted(&[]), first);
+    let after: Vec<_> = names.iter().map(|name| written(name)).collect();
+    assert_eq!(before, after, "they were taken");
+    for name in &names {
+        place.write(&format!("cache/{name}"), b"damaged");
+    }
+    assert_eq!(predicted(&[]), first);
+    assert!(names.iter().all(|name| place.read_lossy(&format!("cache/{name}")) != "damaged"));
+    assert_eq!(predicted(&["--fresh"]), first);
+}
