@@ -62,6 +62,16 @@ fn time_run(criterion: &mut Criterion, name: &str, simulation: &Simulation<'_>, 
     });
 }
 
+/// The same by steps of eighth order, which are this long; a sample each.
+fn by_dop853<'a>(simulation: &Simulation<'a>, step: f64) -> Simulation<'a> {
+    let average = simulation.schedule.average;
+    Simulation {
+        method: Method::Dop853,
+        schedule: Schedule { step, transient: 0.0, average, stride: 1 },
+        ..simulation.clone()
+    }
+}
+
 fn simulate(criterion: &mut Criterion) {
     let communities = networks::coupling_matrix(&networks::communities90());
     let cortex = networks::coupling_matrix(&networks::cortex989());
@@ -71,6 +81,10 @@ fn simulate(criterion: &mut Criterion) {
         time_run(criterion, "simulate/communities90", &simulation_90, lanes);
         let simulation_989 = simulation(cortex.matrix(), 40, none());
         time_run(criterion, "simulate/cortex989", &simulation_989, lanes);
+        let simulation_90 = by_dop853(&simulation_90, 0.125);
+        time_run(criterion, "simulate/dop853/communities90", &simulation_90, lanes);
+        let simulation_989 = by_dop853(&simulation_989, 0.1);
+        time_run(criterion, "simulate/dop853/cortex989", &simulation_989, lanes);
     }
 }
 

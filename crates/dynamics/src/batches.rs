@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 
 use crate::instruction_set::Work;
+use crate::integrators::fixed::Fixed;
 use crate::kernel::Network;
 use crate::kicks::Kicks;
 use crate::links::Links;
@@ -57,6 +58,7 @@ pub(crate) type Numbered = (usize, Start);
 /// Replicas advanced side by side in `L` lanes, their rows summed `R` side by side.
 pub(crate) struct Batch<'a, const L: usize, const R: usize> {
     pub(crate) simulation: &'a Simulation<'a>,
+    pub(crate) method: Fixed,
     pub(crate) links: &'a Links,
     /// At most `L`, all after the same sample.
     pub(crate) starts: Vec<Numbered>,
@@ -69,14 +71,14 @@ impl<const L: usize, const R: usize> Work for Batch<'_, L, R> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { simulation, links, starts, observer } = self;
+        let Self { simulation, method, links, starts, observer } = self;
         let Simulation { dynamics, coupling, schedule, observables, kick, .. } = simulation;
         // Lanes beyond the batch repeat its last replica and are never read.
         let in_lanes = std::array::from_fn(|lane| starts[lane.min(starts.len() - 1)].1.replica);
         let equations = (dynamics.as_ref(), coupling);
         let n_components = dynamics.start().len();
         let mut lanes = InLanes::<L, R> {
-            network: Network::new(equations, simulation.instruction_set, links, in_lanes),
+            network: Network::new(equations, (method, simulation.instruction_set), links, in_lanes),
             sums: ErrorSums::new(observables, links.n_nodes(), schedule.samples_per_block()),
             kicks: Kicks::new(*kick, schedule.sampling_interval(), in_lanes),
             recorder: Recorder::new(simulation.series.as_ref(), schedule, n_components),

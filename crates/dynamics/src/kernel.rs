@@ -13,23 +13,25 @@
 
 use crate::aligned::Aligned;
 use crate::coupling::{Channels, Gain};
+use crate::integrators::fixed::Fixed;
 use crate::links::Links;
 use crate::random::initial_states;
 use crate::row_sums::RowSums;
-use crate::stage::{POINTS, RUNS, Stage, Strength, by_flow};
+use crate::stage::{RUNS, Stage, Strength, by_flow};
 use crate::tile::{TILE, Tile, slices, slices_mut};
 use crate::{Coupling, InstructionSet, NodeDynamics, Replica};
 
 /// A network of `L` replicas, its rows summed `R` side by side.
 pub(crate) struct Network<'a, const L: usize, const R: usize> {
     dynamics: &'a dyn NodeDynamics,
+    method: Fixed,
     instruction_set: InstructionSet,
     coupling: &'a Coupling,
     strengths: Vec<Strength>,
     rows: RowSums<L, R>,
-    /// x, x_1, x_2, x_3 as `[point][component][place][lane]`; of a map x and the next one. Where a
-    /// component that is a channel ends, the signals go on, see [`RowSums`].
-    points: Vec<Aligned>,
+    /// The slots of the step as `[slot][component][place][lane]`, x in the first. Where a component that
+    /// is a channel ends, the signals go on, see [`RowSums`].
+    slots: Vec<Aligned>,
     /// Signals that are not components, channel by channel.
     signals: Vec<Aligned>,
     /// Of some runs, channel by channel.
@@ -41,7 +43,7 @@ pub(crate) struct Network<'a, const L: usize, const R: usize> {
 impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
     pub(crate) fn new(
         (dynamics, coupling): (&'a dyn NodeDynamics, &'a Coupling),
-        instruction_set: InstructionSet,
+        (method, instruction_set): (Fixed, InstructionSet),
         links: &Links,
         replicas: [Replica; L],
     ) -> Self {
@@ -53,18 +55,19 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         };
         let length =
             |c: usize| if sent.contains(&c) { rows.n_signals() } else { rows.n_runs() * TILE };
-        let n_points = if dynamics.is_map() { 2 } else { POINTS };
-        let points = (0..n_points * n_components).map(|k| Aligned::zeros(length(k % n_components)));
+        let n_slots = method.slots() * n_components;
+        let slots = (0..n_slots).map(|k| Aligned::zeros(length(k % n_components)));
         let strength = |&Gain { equation, channel, weight }: &Gain| {
             let of = std::array::from_fn(|number| replicas[number % L].epsilon * weight);
             Strength { equation, channel, of: vec![of; RUNS] }
         };
         let mut network = Self {
             dynamics,
+            method,
             instruction_set,
             coupling,
             strengths: coupling.gains().iter().map(strength).collect(),
-            points: points.collect(),
+            slots: slots.collect(),
             signals: (0..n_sent).map(|_| Aligned::zeros(rows.n_signals())).collect(),
             inputs: vec![[[0.0; TILE]; RUNS]; coupling.n_channels()],
             slopes: vec![[[0.0; TILE]; RUNS]; n_components],
@@ -86,14 +89,15 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
     #[inline(always)]
     pub(crate) fn advance(&mut self, n_steps: u32, h: f64) {
         let n_components = self.n_components();
-        let Self { dynamics, instruction_set, coupling, strengths, rows, inputs, slopes, .. } =
-            self;
-        let mut points: Vec<&mut [Tile]> = self.points.iter_mut().map(runs_mut).collect();
+        let Self { dynamics, method, coupling, strengths, rows, inputs, slopes, .. } = self;
+        let instruction_set = self.instruction_set;
+        let mut slots: Vec<&mut [Tile]> = self.slots.iter_mut().map(runs_mut).collect();
         let mut signals: Vec<&mut [Tile]> = self.signals.iter_mut().map(runs_mut).collect();
-        let fused = dynamics.fused();
-        let n_evaluations = if dynamics.is_map() { 1 } else { POINTS };
-        for point in (0..n_steps).flat_map(|_| 0..n_evaluations) {
-            let here = &mut points[point * n_components..][..n_components];
+        // Of the longer step what goes through memory is the slots, beside which the slopes are little.
+        let fused = dynamics.fused().filter(|_| *method == Fixed::Rk4);
+        let points = method.points().iter().copied().enumerate();
+        for (number, point) in (0..n_steps).flat_map(|_| points.clone()) {
+            let here = &mut slots[point * n_components..][..n_components];
             match coupling.channels() {
                 Channels::Components(components) => {
                     for &from in components {
@@ -107,7 +111,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                     let mut to = slices_mut(
                         signals.iter_mut().map(|sent| sent[..n_runs].as_flattened_mut()),
                     );
-                    channels.send(*instruction_set, &at[..n_components], &mut to[..n_sent]);
+                    channels.send(instruction_set, &at[..n_components], &mut to[..n_sent]);
                     for sent in &mut signals {
                         rows.share(sent.as_flattened_mut().as_chunks_mut().0);
                     }
@@ -118,7 +122,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                 let end = (start + RUNS).min(rows.n_runs());
                 for (channel, inputs) in inputs.iter_mut().enumerate() {
                     let sent: &[Tile] = match coupling.channels() {
-                        Channels::Components(from) => points[point * n_components + from[channel]],
+                        Channels::Components(from) => slots[point * n_components + from[channel]],
                         Channels::Formulas(_) => signals[channel],
                     };
                     let signals = sent.as_flattened().as_chunks().0;
@@ -127,40 +131,41 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                     }
                 }
                 let mut stage = Stage {
-                    point,
+                    method: *method,
+                    number,
                     h,
                     gains: strengths,
                     inputs,
-                    points: &mut points,
+                    slots: &mut slots,
                     runs: start..end,
                     slopes,
                 };
                 match fused {
-                    Some(fused) => fused.stage(*instruction_set, &mut stage),
-                    None => by_flow::stage(*dynamics, *instruction_set, &mut stage),
+                    Some(fused) => fused.stage(instruction_set, &mut stage),
+                    None => by_flow::stage(*dynamics, instruction_set, &mut stage),
                 }
                 start = end;
             }
             if dynamics.is_map() {
-                let (now, next) = points.split_at_mut(n_components);
+                let (now, next) = slots.split_at_mut(n_components);
                 now.swap_with_slice(next);
             }
         }
         if dynamics.is_map() && n_steps % 2 == 1 {
-            self.points.rotate_left(n_components);
+            self.slots.rotate_left(n_components);
         }
     }
 
     /// The lanes of one component of every node, in the order of nodes.
     #[inline(always)]
     pub(crate) fn component(&self, component: usize) -> impl Iterator<Item = &[f64; L]> {
-        let placed = self.points[component].as_chunks().0;
+        let placed = self.slots[component].as_chunks().0;
         self.rows.places().iter().map(move |&place| &placed[place as usize])
     }
 
     /// The lanes of one component of one node.
     pub(crate) fn node(&self, component: usize, node: usize) -> &[f64; L] {
-        &self.points[component].as_chunks().0[self.rows.places()[node] as usize]
+        &self.slots[component].as_chunks().0[self.rows.places()[node] as usize]
     }
 
     /// Changes the lanes of every component of every node, in this order.
@@ -176,7 +181,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         n_components: usize,
         mut change: impl FnMut(usize, usize, &mut [f64; L]),
     ) {
-        for (c, component) in self.points[..n_components].iter_mut().enumerate() {
+        for (c, component) in self.slots[..n_components].iter_mut().enumerate() {
             let placed = component.as_chunks_mut().0;
             for (node, &place) in self.rows.places().iter().enumerate() {
                 change(c, node, &mut placed[place as usize]);

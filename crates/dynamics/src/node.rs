@@ -73,7 +73,7 @@ pub trait Fused {
     /// Takes one state a step of RK4 forward.
     fn advance(&self, state: &mut [f64], h: f64);
 
-    /// One stage of the step of a network.
+    /// One stage of a step of RK4 of a network.
     fn stage(&self, set: InstructionSet, stage: &mut Stage<'_, '_>);
 
     /// Largest Lyapunov exponents of some tangents of the master equation.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::batches::{self, Batch, Numbered};
 use crate::error::check_step;
+use crate::integrators::fixed::Fixed;
 use crate::integrators::{Method, adaptive};
 use crate::links::Links;
 use crate::observer::Counting;
@@ -57,9 +58,9 @@ impl Simulation<'_> {
         let replicas: Vec<Replica> = starts.iter().map(|start| start.replica).collect();
         let starts: Vec<Numbered> = starts.into_iter().enumerate().collect();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
-        let told = match self.method {
-            Method::Rk4 | Method::Iterate => self.run_in_lanes(starts, observer),
-            Method::Adaptive(method) => run_unless_stopped(starts, |(number, start)| {
+        let told = match self.method.fixed() {
+            Ok(method) => self.run_in_lanes(method, starts, observer),
+            Err(method) => run_unless_stopped(starts, |(number, start)| {
                 Some((number, adaptive::run(self, method, (number, start), observer)?))
             }),
         };
@@ -96,6 +97,7 @@ impl Simulation<'_> {
     /// Batches of lanes, as many as keep all threads busy; none when the observer wanted to stop.
     fn run_in_lanes(
         &self,
+        method: Fixed,
         starts: Vec<Numbered>,
         observer: &dyn Observer,
     ) -> Option<Vec<(usize, Outcome)>> {
@@ -104,6 +106,7 @@ impl Simulation<'_> {
             ($starts:ident in $lanes:literal lanes, $rows:literal rows) => {
                 self.instruction_set.run(Batch::<$lanes, $rows> {
                     simulation: self,
+                    method,
                     links: &links,
                     starts: $starts,
                     observer,

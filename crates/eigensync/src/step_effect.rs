@@ -1,11 +1,11 @@
 //! What the step of the integrator does to the simulated errors: at a few couplings the same replicas are
 //! run twice over the same time, at the step of the sweep and at half of it.
 //!
-//! RK4 errs in proportion to h⁴, so that halving h takes away 15/16 of what the step does to a mean,
-//! and the ratio of the two means tells nearly all of it. Orbits of two steps part soon, and means over a
+//! RK4 errs in proportion to h⁴ and DOP853 to h⁸, so that halving h takes away 15/16 and more of what the
+//! step does to a mean, and the ratio of the two means tells nearly all of it. Orbits of two steps part soon, and means over a
 //! finite time differ by chance; how much is told by the scatter of the seeds, on a scale of logarithms,
 //! since errors near synchrony differ by decades from seed to seed. The couplings are
-//! the largest at which no run escaped, where RK4 is nearest to its limit of stability, the largest of
+//! the largest at which no run escaped, where the method is nearest to its limit of stability, the largest of
 //! those at which nodes are not synchronised, where errors are small and bursts depend on everything, and
 //! the smallest at which a run escaped, which the step alone may be the reason of.
 //!
@@ -74,7 +74,7 @@ pub struct StepEffect {
 impl Probe {
     /// What to run after a sweep; none for an integrator that chooses its own steps.
     pub fn of(sweep: &Sweep, simulated: &Simulated) -> Option<Self> {
-        if sweep.method != Method::Rk4 {
+        if !matches!(sweep.method, Method::Rk4 | Method::Dop853) {
             return None;
         }
         let epsilon = couplings(simulated);

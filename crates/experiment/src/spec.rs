@@ -206,6 +206,8 @@ pub struct SeriesSpec {
 pub enum MethodKind {
     /// Classical fourth-order Runge–Kutta with a fixed step.
     Rk4,
+    /// Dormand–Prince of order 8 with a fixed step.
+    Rk8,
     /// State by state: maps, and nothing else.
     Iterate,
     /// Adaptive Dormand–Prince 5(4).

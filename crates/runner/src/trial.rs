@@ -111,7 +111,7 @@ impl<'a> Bench<'a> {
         let samples = samples.clamp(SAMPLES[0], SAMPLES[1]).round();
         let planned = sweep.schedule.step;
         let (step, samples) = match sweep.method {
-            Method::Rk4 | Method::Iterate => (planned, samples),
+            Method::Rk4 | Method::Dop853 | Method::Iterate => (planned, samples),
             Method::Adaptive(_) => (planned.min(ADAPTIVE_INTERVAL), SAMPLES[0]),
         };
         // A hair more than so many samples, which rounding would else make one less.

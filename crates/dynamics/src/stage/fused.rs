@@ -1,12 +1,11 @@
-//! A stage of equations that are compiled, in one go, without a slope that goes through memory.
+//! A stage of RK4 of equations that are compiled, in one go, without a slope that goes through memory: what
+//! [`super::by_flow`] does, faster.
 
-use super::{ADVANCES, POINTS, RUNS, Stage, last};
+use super::{RUNS, Stage, VECTOR};
 use crate::instruction_set::Work;
+use crate::integrators::rk4_in_slots::{ADVANCES, POINTS, last};
 use crate::tile::{TILE, Tile};
 use crate::{InstructionSet, Lanes, Oscillator};
-
-/// Numbers on which equations are evaluated together: one AVX-512 or four SSE2 registers.
-const VECTOR: usize = 8;
 
 /// A stage of nodes whose equations are compiled.
 struct Fused<'a, 'b, 'c, O, const D: usize> {
@@ -14,7 +13,7 @@ struct Fused<'a, 'b, 'c, O, const D: usize> {
     stage: &'a mut Stage<'b, 'c>,
 }
 
-/// Does a stage of compiled equations.
+/// Does a stage of RK4 of compiled equations.
 pub(crate) fn stage<O: Oscillator<D>, const D: usize>(
     oscillator: &O,
     set: InstructionSet,
@@ -28,7 +27,7 @@ impl<O: Oscillator<D>, const D: usize> Work for Fused<'_, '_, '_, O, D> {
 
     #[inline(always)]
     fn run(self) {
-        match self.stage.point {
+        match self.stage.number {
             0 => self.at::<0>(),
             1 => self.at::<1>(),
             2 => self.at::<2>(),
@@ -66,7 +65,7 @@ impl<'a, const D: usize> Points<'a, D> {
     #[inline(always)]
     fn of(stage: &'a mut Stage<'_, '_>) -> Self {
         let (start, n_runs) = (stage.runs.start, stage.runs.len());
-        let mut points = stage.points.iter_mut();
+        let mut points = stage.slots.iter_mut();
         Self(std::array::from_fn(|_| {
             std::array::from_fn(|_| {
                 &mut points.next().expect("a point has D components")[start..][..n_runs]

@@ -34,7 +34,7 @@ impl Checker<'_> {
         if let Some(sweep) = &self.experiment.sweep
             && !matches!(sweep.method, Some(MethodKind::Dopri5 | MethodKind::Dop853))
         {
-            let reason = "the steps of rk4 are all `sweep.step` long; the adaptive methods, dopri5 \
+            let reason = "the steps of rk4 and rk8 are all `sweep.step` long; the adaptive methods, dopri5 \
                           and dop853, have a tolerance";
             self.without_effect("sweep", "tolerance", reason)?;
         }

@@ -61,6 +61,7 @@ pub fn of(experiment: &Experiment, study: &Study) -> Value {
 pub fn method(method: Method) -> MethodKind {
     match method {
         Method::Rk4 => MethodKind::Rk4,
+        Method::Dop853 => MethodKind::Rk8,
         Method::Iterate => MethodKind::Iterate,
         Method::Adaptive(Adaptive { order: AdaptiveOrder::Five, .. }) => MethodKind::Dopri5,
         Method::Adaptive(Adaptive { order: AdaptiveOrder::Eight, .. }) => MethodKind::Dop853,

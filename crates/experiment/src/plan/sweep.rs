@@ -116,6 +116,7 @@ impl Checker<'_> {
         let method = match spec.method {
             None if is_map => Method::Iterate,
             None | Some(MethodKind::Rk4) => Method::Rk4,
+            Some(MethodKind::Rk8) => Method::Dop853,
             Some(MethodKind::Iterate) => Method::Iterate,
             Some(MethodKind::Dopri5) => adaptive(AdaptiveOrder::Five),
             Some(MethodKind::Dop853) => adaptive(AdaptiveOrder::Eight),
@@ -127,7 +128,9 @@ impl Checker<'_> {
             }
             (false, true) => {
                 let message = "is \"iterate\", which is for maps, but the oscillator is a flow";
-                Err(self.problem(key, message).hint("take \"rk4\", \"dopri5\" or \"dop853\""))
+                Err(self
+                    .problem(key, message)
+                    .hint("take \"rk4\", \"rk8\", \"dopri5\" or \"dop853\""))
             }
             _ => Ok(method),
         }
