@@ -1,9 +1,9 @@
-//! What a step of RK4 makes of small deviations. Along an orbit of the isolated oscillator the
+//! What a step makes of small deviations. Along an orbit of the isolated oscillator the
 //! Jacobians A = DF(s) − σ DH have eigenvalues μ; a deviation along one grows in a step h by
 //!
 //! ```text
 //! exp(hμ)   by the equations
-//! R(hμ)     by RK4, with R(z) = 1 + z + z²/2 + z³/6 + z⁴/24
+//! R(hμ)     by the method, with R(z) = 1 + z + z²/2 + z³/6 + z⁴/24 for RK4
 //! ```
 //!
 //! Where Re μ < 0 and |R(hμ)| > 1 the method amplifies what the equations damp. σ = −ελ is that of a
@@ -17,9 +17,9 @@ use nalgebra::{Complex, DMatrix};
 use crate::isolated_orbit::IsolatedOrbit;
 use crate::jacobians::Jacobians;
 use crate::small_eigenvalues::{eigenvalues, largest};
-use crate::{Coupling, DynamicsError, NodeDynamics};
+use crate::{Coupling, DynamicsError, Method, NodeDynamics};
 
-/// The orbit is followed with the step in question divided by this.
+/// The orbit is followed by RK4 with the step in question divided by this.
 const FINER: f64 = 4.0;
 /// Steps of the orbit before its first Jacobian.
 const TRANSIENT: u32 = 40_000;
@@ -39,8 +39,8 @@ pub enum StepVerdict {
     Doubtful {
         /// Mean growth rate of the leading direction by the equations.
         exact: f64,
-        /// The same by RK4.
-        rk4: f64,
+        /// The same by the method.
+        by_method: f64,
     },
     /// On average along the orbit the method amplifies a direction that the equations damp.
     Unstable {
@@ -87,17 +87,21 @@ impl LinearSteps {
         Ok(Self { jacobians })
     }
 
-    /// What a step does at this σ.
-    pub fn judge(&self, sigma: f64, step: f64) -> StepVerdict {
-        let (mut exact, mut rk4, mut size) = (0.0, 0.0, 0.0);
+    /// What a step of a method that has a fixed one does at this σ.
+    ///
+    /// # Panics
+    /// For an adaptive method.
+    pub fn judge(&self, sigma: f64, (method, step): (Method, f64)) -> StepVerdict {
+        let method = method.fixed().expect("an adaptive method chooses its steps by itself");
+        let (mut exact, mut by_method, mut size) = (0.0, 0.0, 0.0);
         let (mut amplified, mut anywhere) = (0.0, false);
         for rates in self.rates(sigma) {
             let leading = |rate: &dyn Fn(Complex<f64>) -> f64| {
                 rates.iter().map(|&mu| rate(mu)).fold(f64::NEG_INFINITY, f64::max)
             };
-            let by_rk4 = |mu: Complex<f64>| growth(mu * step).ln() / step;
+            let by_steps = |mu: Complex<f64>| method.growth(mu * step).ln() / step;
             let damped = |mu: Complex<f64>| {
-                if mu.re < 0.0 { by_rk4(mu) } else { f64::NEG_INFINITY }
+                if mu.re < 0.0 { by_steps(mu) } else { f64::NEG_INFINITY }
             };
             let of_damped = leading(&damped);
             anywhere |= of_damped > 0.0;
@@ -106,14 +110,15 @@ impl LinearSteps {
             let by_equations = leading(&|mu| mu.re);
             exact += by_equations;
             size += by_equations.abs();
-            rk4 += leading(&by_rk4);
+            by_method += leading(&by_steps);
         }
         let n = self.jacobians.len() as f64;
-        let [exact, rk4, size, amplified] = [exact, rk4, size, amplified].map(|sum| sum / n);
-        if amplified > 0.0 || !rk4.is_finite() {
+        let [exact, by_method, size, amplified] =
+            [exact, by_method, size, amplified].map(|sum| sum / n);
+        if amplified > 0.0 || !by_method.is_finite() {
             StepVerdict::Unstable { factor: (amplified * step).exp() }
-        } else if anywhere || (rk4 - exact).abs() > ACCURATE * size {
-            StepVerdict::Doubtful { exact, rk4 }
+        } else if anywhere || (by_method - exact).abs() > ACCURATE * size {
+            StepVerdict::Doubtful { exact, by_method }
         } else {
             StepVerdict::Sound
         }
@@ -121,13 +126,13 @@ impl LinearSteps {
 
     /// The longest step, of those from `at_most` down by a tenth each, that is sound at this σ; none
     /// within thirteen decades.
-    pub fn sound_step(&self, sigma: f64, at_most: f64) -> Option<f64> {
-        let steps = (0..300).map(|k| at_most * 0.9f64.powi(k));
-        steps.into_iter().find(|&step| self.judge(sigma, step) == StepVerdict::Sound)
+    pub fn sound_step(&self, sigma: f64, (method, at_most): (Method, f64)) -> Option<f64> {
+        let mut steps = (0..300).map(|k| at_most * 0.9f64.powi(k));
+        steps.find(|&step| self.judge(sigma, (method, step)) == StepVerdict::Sound)
     }
 
     /// The largest σ up to `most` at which the step is not unstable, to a per cent.
-    pub fn stable_up_to(&self, most: f64, step: f64) -> f64 {
+    pub fn stable_up_to(&self, most: f64, step: (Method, f64)) -> f64 {
         let unstable = |sigma| matches!(self.judge(sigma, step), StepVerdict::Unstable { .. });
         let (mut low, mut high) = (0.0, most);
         if !unstable(most) {
@@ -153,12 +158,6 @@ fn rates_of(a: DMatrix<f64>) -> Vec<Complex<f64>> {
     eigenvalues(a).unwrap_or_else(|| vec![Complex::new(-size, 0.0)])
 }
 
-/// |R(z)|.
-fn growth(z: Complex<f64>) -> f64 {
-    let one = Complex::new(1.0, 0.0);
-    (one + z * (one + z * (one / 2.0 + z * (one / 6.0 + z / 24.0)))).norm()
-}
-
 /// DF and DH at a state.
 fn jacobians_at(
     (dynamics, coupling): (&dyn NodeDynamics, &Coupling),
@@ -174,38 +173,38 @@ mod tests {
     use super::*;
     use crate::{HindmarshRose, Lorenz, Model, Rossler};
 
+    const RK4: (Method, f64) = (Method::Rk4, 0.01);
+
     fn lorenz(from: usize, to: usize) -> LinearSteps {
         let model = Model::Lorenz(Lorenz::default());
         LinearSteps::along_orbit(&model, &Coupling::pair(from, to), 0.01, 1).unwrap()
     }
 
     #[test]
-    fn rk4_ends_where_its_known_intervals_do() {
-        // 2.785 along the negative axis, 2√2 along the imaginary one.
-        let at = |re, im| growth(Complex::new(re, im));
-        assert!(at(-2.785, 0.0) < 1.0 && at(-2.786, 0.0) > 1.0);
-        assert!(at(0.0, 2.828) < 1.0 && at(0.0, 2.829) > 1.0);
+    fn a_damped_component_ends_at_2_785_over_the_step() {
+        // x into x: the fast rate is α + σ, apart from terms of order 1/σ.
+        let end = lorenz(0, 0).stable_up_to(1000.0, RK4);
+        assert!((end + 10.0 - 278.5).abs() < 6.0, "{end}");
     }
 
     #[test]
-    fn a_damped_component_ends_at_2_785_over_the_step() {
-        // x into x: the fast rate is α + σ, apart from terms of order 1/σ.
-        let end = lorenz(0, 0).stable_up_to(1000.0, 0.01);
-        assert!((end + 10.0 - 278.5).abs() < 6.0, "{end}");
+    fn dop853_at_an_eighth_damps_up_to_its_interval_of_6_39() {
+        let end = lorenz(0, 0).stable_up_to(1000.0, (Method::Dop853, 0.125));
+        assert!((end + 10.0 - 8.0 * 6.39).abs() < 2.0, "{end}");
     }
 
     #[test]
     fn x_into_y_ends_where_the_two_oscillate_too_fast() {
         // The fast pair is ±i √(ασ), and damped on average by (α + 1)/2: hσ½ reaches 2√2 near 8000.
         let steps = lorenz(0, 1);
-        let end = steps.stable_up_to(1e5, 0.01);
+        let end = steps.stable_up_to(1e5, RK4);
         assert!((7600.0..8400.0).contains(&end), "{end}");
         // z decays by itself more slowly than the pair, so that the pair is noticed only near its end.
-        let verdicts = [0.9, 0.98, 0.985, 0.99, 0.995, 1.1].map(|f| steps.judge(f * end, 0.01));
+        let verdicts = [0.9, 0.98, 0.985, 0.99, 0.995, 1.1].map(|f| steps.judge(f * end, RK4));
         assert_eq!(verdicts[0], StepVerdict::Sound);
         assert!(verdicts.iter().any(|v| matches!(v, StepVerdict::Doubtful { .. })), "{verdicts:?}");
         assert!(matches!(verdicts[5], StepVerdict::Unstable { factor } if factor > 1.0));
-        let sound = steps.sound_step(1.1 * end, 0.01).unwrap();
+        let sound = steps.sound_step(1.1 * end, RK4).unwrap();
         assert!((0.008..0.01).contains(&sound), "{sound}");
     }
 
@@ -213,8 +212,8 @@ mod tests {
     fn numbers_beyond_all_sense_are_answered_too() {
         for sigma in [1e30, 1e155, 1e300, f64::MAX] {
             let steps = lorenz(0, 0);
-            assert!(matches!(steps.judge(sigma, 0.01), StepVerdict::Unstable { .. }), "{sigma}");
-            assert!(steps.stable_up_to(sigma, 0.01) < 300.0);
+            assert!(matches!(steps.judge(sigma, RK4), StepVerdict::Unstable { .. }), "{sigma}");
+            assert!(steps.stable_up_to(sigma, RK4) < 300.0);
         }
     }
 
@@ -229,7 +228,7 @@ mod tests {
             for coupling in [Coupling::pair(0, 0), Coupling::pair(0, 1)] {
                 let steps = LinearSteps::along_orbit(&model, &coupling, 0.01, 1).unwrap();
                 for sigma in [0.0, 0.1 * sigma, sigma] {
-                    assert_eq!(steps.judge(sigma, 0.01), StepVerdict::Sound, "{model:?} {sigma}");
+                    assert_eq!(steps.judge(sigma, RK4), StepVerdict::Sound, "{model:?} {sigma}");
                 }
             }
         }

@@ -169,7 +169,7 @@ fn a_component_as_a_formula_couples_as_the_component_does() {
             (
                 completed(&simulation(lorenz.clone(), coupling, &matrix), &[0.3, 1.7, 2.9]),
                 master_exponents(&*lorenz, coupling, &SHORT, &tangents, QUIET).unwrap(),
-                steps.stable_up_to(1e5, 0.01),
+                steps.stable_up_to(1e5, (Method::Rk4, 0.01)),
             )
         };
         assert_eq!(of(&formula), of(&linear));

@@ -1,4 +1,4 @@
-//! Whether RK4 can take the step that is asked of it, at the largest σ = ε|λ| that a run comes to: the
+//! Whether a method can take the step that is asked of it, at the largest σ = ε|λ| that a run comes to: the
 //! σ of the last point of the curve, and for a sweep its largest ε times |λ_N|.
 
 use dynamics::lyapunov::takes_series;
@@ -14,6 +14,7 @@ struct Step<'a> {
     key: &'a str,
     /// Key of the summary that is in doubt where the step is.
     about: &'static str,
+    method: Method,
     step: f64,
     /// The largest σ, and what it is.
     sigma: f64,
@@ -36,6 +37,7 @@ impl Checker<'_> {
             let of_msf = Step {
                 key: "msf.step",
                 about: "msf.stable",
+                method: Method::Rk4,
                 step,
                 sigma: last,
                 reached_by: "the end of `msf.sigma`",
@@ -44,7 +46,7 @@ impl Checker<'_> {
             doubts.extend(self.judge(&steps, &of_msf)?);
         }
         match &study.sweep {
-            Some(sweep) if sweep.method == Method::Rk4 => {
+            Some(sweep) if matches!(sweep.method, Method::Rk4 | Method::Dop853) => {
                 doubts.extend(self.sweep_step(study, sweep)?);
             }
             _ => {}
@@ -59,7 +61,7 @@ impl Checker<'_> {
         let diagonal = study.matrix.matrix().diag_iter().flatten();
         let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
         // By Gershgorin |λ_N| is no more, and need not be known where the step is sound even so.
-        if steps.judge(epsilon * bound, step) == StepVerdict::Sound {
+        if steps.judge(epsilon * bound, (sweep.method, step)) == StepVerdict::Sound {
             return Ok(None);
         }
         let fastest = spectra::smallest_eigenvalue(&study.matrix).map_or(bound, f64::abs);
@@ -68,6 +70,7 @@ impl Checker<'_> {
         let of_sweep = Step {
             key: "sweep.step",
             about: "simulations",
+            method: sweep.method,
             step,
             sigma: epsilon * fastest,
             reached_by: &reached_by,
@@ -84,25 +87,26 @@ impl Checker<'_> {
         (!dynamics.is_map()).then(along).flatten()
     }
 
-    /// Refuses a step at which RK4 makes deviations grow that the equations damp: the end of a stable
+    /// Refuses a step at which the method makes deviations grow that the equations damp: the end of a stable
     /// set or an escape would be no property of the oscillators. Of a step that damps them at another
     /// rate the doubt is told.
     fn judge(&self, steps: &LinearSteps, step: &Step<'_>) -> Result<Option<Warning>> {
-        let &Step { key, about, step, sigma, reached_by, instead } = step;
-        let way_out = || match steps.sound_step(sigma, step) {
+        let &Step { key, about, method, step, sigma, reached_by, instead } = step;
+        let name = if method == Method::Rk4 { "RK4" } else { "DOP853" };
+        let way_out = || match steps.sound_step(sigma, (method, step)) {
             Some(shorter) => format!("take a step of {} or less, {instead}", rounded_down(shorter)),
             None => instead.trim_start_matches("or ").to_owned(),
         };
         let at = format!("at sigma = {}, {reached_by}", four_digits(sigma));
-        match steps.judge(sigma, step) {
+        match steps.judge(sigma, (method, step)) {
             StepVerdict::Sound => Ok(None),
-            StepVerdict::Doubtful { exact, rk4 } => {
+            StepVerdict::Doubtful { exact, by_method } => {
                 let message = format!(
-                    "`{key}` of {} is long for RK4 {at}: along the isolated orbit deviations grow at \
-                     a mean rate of {} by RK4 and of {} by the equations, or it is unstable on parts \
+                    "`{key}` of {} is long for {name} {at}: along the isolated orbit deviations grow at \
+                     a mean rate of {} by {name} and of {} by the equations, or it is unstable on parts \
                      of it; {}",
                     plain(step),
-                    two_digits(rk4),
+                    two_digits(by_method),
                     two_digits(exact),
                     way_out()
                 );
@@ -110,11 +114,11 @@ impl Checker<'_> {
             }
             StepVerdict::Unstable { factor } => {
                 let message = format!(
-                    "is {}, too long for RK4 {at}: along the isolated orbit a step makes deviations \
+                    "is {}, too long for {name} {at}: along the isolated orbit a step makes deviations \
                      that the equations damp grow by a factor of {}; it holds up to sigma = {}",
                     plain(step),
                     two_digits(factor),
-                    two_digits(steps.stable_up_to(sigma, step))
+                    two_digits(steps.stable_up_to(sigma, (method, step)))
                 );
                 Err(self.problem(key, message).hint(way_out()))
             }
