@@ -88,6 +88,31 @@ fn simulate(criterion: &mut Criterion) {
     }
 }
 
+/// One replica of a large network, and three, on two threads and on one.
+fn together(criterion: &mut Criterion) {
+    let cortex = networks::coupling_matrix(&networks::cortex989());
+    let rk4 = simulation(cortex.matrix(), 40, Observables::default());
+    let dop853 = by_dop853(&rk4, 0.1);
+    let pairs = Observables { pairs: true, ..Observables::default() };
+    let observed = simulation(cortex.matrix(), 40, pairs);
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let named = [("rk4", &rk4), ("dop853", &dop853), ("pairs", &observed)];
+        for (name, simulation) in named {
+            for n in [1, 2, 3, 16] {
+                let name = format!("together/{name}/{n}");
+                let (replicas, of) = (replicas(n), format!("{threads}-threads"));
+                let mut group = criterion.benchmark_group(name);
+                let elements = u64::from(n) * 989 * simulation.schedule.steps();
+                group.throughput(Throughput::Elements(elements));
+                group.bench_function(of, |bencher| {
+                    bencher.iter(|| pool.install(|| simulation.run(&replicas, QUIET)));
+                });
+            }
+        }
+    }
+}
+
 /// The same equations as text: what a program takes beside compiled ones.
 fn text() -> Text {
     let neuron = HindmarshRose::default();
@@ -205,6 +230,6 @@ fn on_one_thread() -> Criterion {
 criterion_group! {
     name = benches;
     config = on_one_thread();
-    targets = peak, simulate, simulate_text, msf, observe
+    targets = peak, simulate, simulate_text, together, msf, observe
 }
 criterion_main!(benches);

@@ -18,6 +18,7 @@ use crate::links::Links;
 use crate::random::initial_states;
 use crate::row_sums::RowSums;
 use crate::stage::{RUNS, Stage, Strength, by_flow};
+use crate::team::Seat;
 use crate::tile::{TILE, Tile, slices, slices_mut};
 use crate::{Coupling, InstructionSet, NodeDynamics, Replica};
 
@@ -29,6 +30,8 @@ pub(crate) struct Network<'a, const L: usize, const R: usize> {
     coupling: &'a Coupling,
     strengths: Vec<Strength>,
     rows: RowSums<L, R>,
+    /// Of this thread, where several advance the network.
+    seat: Seat<'a>,
     /// The slots of the step as `[slot][component][place][lane]`, x in the first. Where a component that
     /// is a channel ends, the signals go on, see [`RowSums`].
     slots: Vec<Aligned>,
@@ -46,8 +49,10 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         (method, instruction_set): (Fixed, InstructionSet),
         links: &Links,
         replicas: [Replica; L],
+        mut seat: Seat<'a>,
     ) -> Self {
         let rows = RowSums::new(links);
+        seat.share(rows.shares(seat.n_seats()));
         let n_components = dynamics.start().len();
         let (sent, n_sent) = match coupling.channels() {
             Channels::Components(components) => (components.as_slice(), 0),
@@ -72,6 +77,7 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
             inputs: vec![[[0.0; TILE]; RUNS]; coupling.n_channels()],
             slopes: vec![[[0.0; TILE]; RUNS]; n_components],
             rows,
+            seat,
         };
         let n_nodes = links.n_nodes();
         let drawn = replicas.map(|replica| initial_states(dynamics.start(), n_nodes, replica.seed));
@@ -85,41 +91,49 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
         self.slopes.len()
     }
 
-    /// Advances every node by some steps h.
+    /// Advances every node by some steps h. False when the threads that do so have come to an end.
     #[inline(always)]
-    pub(crate) fn advance(&mut self, n_steps: u32, h: f64) {
+    #[must_use]
+    pub(crate) fn advance(&mut self, n_steps: u32, h: f64) -> bool {
         let n_components = self.n_components();
-        let Self { dynamics, method, coupling, strengths, rows, inputs, slopes, .. } = self;
+        let Self { dynamics, method, coupling, strengths, rows, seat, inputs, slopes, .. } = self;
+        let own = seat.own();
         let instruction_set = self.instruction_set;
         let mut slots: Vec<&mut [Tile]> = self.slots.iter_mut().map(runs_mut).collect();
         let mut signals: Vec<&mut [Tile]> = self.signals.iter_mut().map(runs_mut).collect();
         // Of the longer step what goes through memory is the slots, beside which the slopes are little.
         let fused = dynamics.fused().filter(|_| *method == Fixed::Rk4);
+        let all_sent: Vec<usize> = (0..signals.len()).collect();
         let points = method.points().iter().copied().enumerate();
         for (number, point) in (0..n_steps).flat_map(|_| points.clone()) {
             let here = &mut slots[point * n_components..][..n_components];
             match coupling.channels() {
                 Channels::Components(components) => {
+                    if !seat.exchange(here, components) {
+                        return false;
+                    }
                     for &from in components {
                         rows.share(here[from].as_flattened_mut().as_chunks_mut().0);
                     }
                 }
                 channels @ Channels::Formulas(_) => {
-                    let n_runs = rows.n_runs();
-                    let at = slices(here.iter().map(|x| x[..n_runs].as_flattened()));
+                    let at = slices(here.iter().map(|x| x[own.clone()].as_flattened()));
                     let n_sent = signals.len();
                     let mut to = slices_mut(
-                        signals.iter_mut().map(|sent| sent[..n_runs].as_flattened_mut()),
+                        signals.iter_mut().map(|sent| sent[own.clone()].as_flattened_mut()),
                     );
                     channels.send(instruction_set, &at[..n_components], &mut to[..n_sent]);
+                    if !seat.exchange(&mut signals, &all_sent) {
+                        return false;
+                    }
                     for sent in &mut signals {
                         rows.share(sent.as_flattened_mut().as_chunks_mut().0);
                     }
                 }
             }
-            let mut start = 0;
-            while start < rows.n_runs() {
-                let end = (start + RUNS).min(rows.n_runs());
+            let mut start = own.start;
+            while start < own.end {
+                let end = (start + RUNS).min(own.end);
                 for (channel, inputs) in inputs.iter_mut().enumerate() {
                     let sent: &[Tile] = match coupling.channels() {
                         Channels::Components(from) => slots[point * n_components + from[channel]],
@@ -151,9 +165,11 @@ impl<'a, const L: usize, const R: usize> Network<'a, L, R> {
                 now.swap_with_slice(next);
             }
         }
+        let going = seat.gather(&mut slots[..n_components]);
         if dynamics.is_map() && n_steps % 2 == 1 {
             self.slots.rotate_left(n_components);
         }
+        going
     }
 
     /// The lanes of one component of every node, in the order of nodes.

@@ -48,6 +48,7 @@ mod slow_time;
 mod small_eigenvalues;
 mod stage;
 mod statistics;
+mod team;
 mod text;
 mod tile;
 mod trace;

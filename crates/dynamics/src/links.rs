@@ -51,6 +51,18 @@ impl Links {
     pub(crate) fn n_nodes(&self) -> usize {
         self.rows.len()
     }
+
+    /// About the time that an evaluation takes of a single replica, in nanoseconds.
+    pub(crate) fn work(&self) -> f64 {
+        let terms = self.rows.iter().map(|row| row.terms.len()).sum();
+        work(terms, self.n_nodes())
+    }
+}
+
+/// About the time that so many terms and the equations of so many nodes take, in nanoseconds: measured on
+/// networks of 90 and 989 nodes, and rounded.
+pub(crate) fn work(terms: usize, nodes: usize) -> f64 {
+    0.35 * terms as f64 + 4.0 * nodes as f64
 }
 
 impl Row {

@@ -7,8 +7,10 @@
 //!
 //! Source of the windows: M. Kreutzer et al., SIAM J. Sci. Comput. 36, C401 (2014), SELL-C-σ.
 
+use std::ops::Range;
+
 use crate::Lanes;
-use crate::links::{Links, Row};
+use crate::links::{Links, Row, work};
 use crate::tile::{TILE, Tile};
 
 /// Nodes that are placed in order of their number of terms.
@@ -89,6 +91,22 @@ impl<const L: usize, const R: usize> RowSums<L, R> {
     /// Runs of numbers that all nodes take.
     pub(crate) fn n_runs(&self) -> usize {
         self.n_runs
+    }
+
+    /// The runs cut into so many pieces of about the same work.
+    pub(crate) fn shares(&self, n: usize) -> Vec<Range<usize>> {
+        let work_before = |run: usize| {
+            let groups = run * Self::GROUPS_IN_RUN;
+            let terms = if groups == 0 { 0 } else { self.groups[groups - 1].end * R };
+            work(terms, run * Self::NODES_IN_RUN)
+        };
+        let runs: Vec<usize> = (0..self.n_runs).collect();
+        let all = work_before(self.n_runs);
+        let end = |k: usize| {
+            let most = all * k as f64 / n as f64;
+            runs.partition_point(|&run| work_before(run + 1) <= most * (1.0 + 1e-9))
+        };
+        (0..n).map(|k| end(k)..end(k + 1)).collect()
     }
 
     /// Numbers that the signals take, a multiple of [`TILE`].

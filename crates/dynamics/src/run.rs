@@ -1,15 +1,17 @@
 //! A simulation run: replicas in batches of lanes, or one by one by an adaptive method.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::batches::{self, Batch, Numbered};
+use crate::batches::{self, Batch, Numbered, Size};
 use crate::error::check_step;
 use crate::integrators::fixed::Fixed;
 use crate::integrators::{Method, adaptive};
 use crate::links::Links;
 use crate::observer::Counting;
+use crate::team::{Seat, Team};
 use crate::{
     DynamicsError, Observer, Outcome, Progress, Replica, Run, Simulation, Snapshot, Start,
 };
@@ -60,9 +62,12 @@ impl Simulation<'_> {
         let mut outcomes: Vec<Option<Outcome>> = vec![None; replicas.len()];
         let told = match self.method.fixed() {
             Ok(method) => self.run_in_lanes(method, starts, observer),
-            Err(method) => run_unless_stopped(starts, |(number, start)| {
-                Some((number, adaptive::run(self, method, (number, start), observer)?))
-            }),
+            Err(method) => {
+                let run = |(number, start)| {
+                    Some((number, adaptive::run(self, method, (number, start), observer)?))
+                };
+                run_unless_stopped(starts, rayon::current_num_threads(), run)
+            }
         };
         for (number, outcome) in told.ok_or(DynamicsError::Cancelled)? {
             outcomes[number] = Some(outcome);
@@ -94,7 +99,8 @@ impl Simulation<'_> {
             && snapshot.sums.len() == n_sums
     }
 
-    /// Batches of lanes, as many as keep all threads busy; none when the observer wanted to stop.
+    /// Batches of lanes, as many as keep all threads busy, or several threads on each; none when the
+    /// observer wanted to stop.
     fn run_in_lanes(
         &self,
         method: Fixed,
@@ -102,14 +108,19 @@ impl Simulation<'_> {
         observer: &dyn Observer,
     ) -> Option<Vec<(usize, Outcome)>> {
         let links = Links::new(self.matrix);
+        let size = Size { work: links.work(), n_nodes: links.n_nodes() };
+        let cut = batches::of(starts, rayon::current_num_threads(), size);
         macro_rules! run {
             ($starts:ident in $lanes:literal lanes, $rows:literal rows) => {
-                self.instruction_set.run(Batch::<$lanes, $rows> {
-                    simulation: self,
-                    method,
-                    links: &links,
-                    starts: $starts,
-                    observer,
+                together(cut.n_seats, |seat| {
+                    self.instruction_set.run(Batch::<$lanes, $rows> {
+                        simulation: self,
+                        method,
+                        links: &links,
+                        starts: $starts.clone(),
+                        observer,
+                        seat,
+                    })
                 })
             };
         }
@@ -121,22 +132,47 @@ impl Simulation<'_> {
             5..=8 => run!(starts in 8 lanes, 2 rows),
             _ => run!(starts in 16 lanes, 1 rows),
         };
-        let batches = batches::of(starts, rayon::current_num_threads());
-        Some(run_unless_stopped(batches, run)?.into_iter().flatten().collect())
+        Some(run_unless_stopped(cut.batches, cut.n_teams, run)?.into_iter().flatten().collect())
     }
 }
 
-/// Does all pieces of work in parallel; begins no other once one has been stopped.
+/// Does one piece of work on as many threads as a team has; what the leading one makes of it.
+fn together<T>(n_seats: usize, work: impl Fn(Seat<'_>) -> Option<T> + Sync) -> Option<T> {
+    let team = Team::of(n_seats);
+    let mut seats = team.seats();
+    let leading = seats.next().expect("a team has a leading seat");
+    // Threads of their own: those of a pool might be busy, and wait for this one meanwhile.
+    std::thread::scope(|scope| {
+        for seat in seats {
+            let work = &work;
+            scope.spawn(move || drop(work(seat)));
+        }
+        work(leading)
+    })
+}
+
+/// Does all pieces of work, so many at once; begins no other once one has been stopped.
 fn run_unless_stopped<W: Send, T: Send>(
     pieces: Vec<W>,
+    at_once: usize,
     run: impl Fn(W) -> Option<T> + Sync,
 ) -> Option<Vec<T>> {
     let stopped = AtomicBool::new(false);
-    let run = |piece: W| {
-        let done = if stopped.load(Ordering::Relaxed) { None } else { run(piece) };
-        stopped.fetch_or(done.is_none(), Ordering::Relaxed);
+    let left = Mutex::new(pieces.into_iter());
+    let next = || left.lock().expect("nothing fails while a piece is taken").next();
+    let one_after_the_other = |_| {
+        let mut done = Vec::new();
+        while !stopped.load(Ordering::Relaxed)
+            && let Some(piece) = next()
+        {
+            match run(piece) {
+                Some(result) => done.push(result),
+                None => stopped.store(true, Ordering::Relaxed),
+            }
+        }
         done
     };
-    let done: Vec<_> = pieces.into_par_iter().with_max_len(1).map(run).collect();
-    done.into_iter().collect()
+    let done = (0..at_once).into_par_iter().with_max_len(1).map(one_after_the_other);
+    let done: Vec<T> = done.collect::<Vec<_>>().into_iter().flatten().collect();
+    (!stopped.into_inner()).then_some(done)
 }
