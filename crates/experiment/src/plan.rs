@@ -20,7 +20,7 @@ mod sweep;
 mod tried;
 mod watched;
 
-use eigensync::numbers::plain;
+use eigensync::numbers::{plain, two_digits};
 use eigensync::{Study, Warning};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -28,7 +28,7 @@ use std::sync::Arc;
 use claims::Claim;
 use clustering::ClusterRule;
 use dynamics::lyapunov::{Integrator, Times};
-use dynamics::{InstructionSet, NodeDynamics};
+use dynamics::{InstructionSet, NodeDynamics, StepChoice};
 use graph::prepare::Report;
 use graph::{CouplingMatrix, Normalization};
 
@@ -79,6 +79,8 @@ pub struct Plan {
     pub matrix: MatrixKind,
     /// What the node of the study is known by.
     pub node: Node,
+    /// What `method = "auto"` has chosen for the sweep.
+    pub chosen: Option<StepChoice>,
     /// What the figure shows; modes, positions and couplings in it are there.
     pub figure: FigureSpec,
     /// What the source says, each claim of an instance that will be there.
@@ -182,12 +184,18 @@ fn of(document: Document, (file, id): (&Path, &str), quick: bool, stages: &Stage
     });
     let (node, unused) = checker.node()?;
     let dynamics = node.dynamics();
+    let modes = checker.spectrum(network.n_nodes(), n_components)?;
+    let msf = checker.msf(dynamics)?;
+    let rule = checker.rule(network.n_nodes())?;
     let sweep = experiment.sweep.as_ref();
+    let sweep =
+        sweep.map(|spec| checker.sweep(spec, (&network, &matrix), &node.equations)).transpose()?;
+    let (sweep, chosen) = sweep.map_or((None, None), |(sweep, chosen)| (Some(sweep), chosen));
     let study = Study {
-        modes: checker.spectrum(network.n_nodes(), n_components)?,
-        msf: checker.msf(dynamics)?,
-        rule: checker.rule(network.n_nodes())?,
-        sweep: sweep.map(|sweep| checker.sweep(sweep, &network, dynamics)).transpose()?,
+        modes,
+        msf,
+        rule,
+        sweep,
         regions: experiment.regions.as_ref().map(RegionsSpec::bounds),
         seed: experiment.seed,
         node: node.equations.clone(),
@@ -200,6 +208,14 @@ fn of(document: Document, (file, id): (&Path, &str), quick: bool, stages: &Stage
     let jumps = checker.tried(&node, study.msf.times.step)?;
     doubts.extend(jumps.map(|message| Warning { about: "msf", message }));
     doubts.extend(checker.steps(&study)?);
+    if let Some(StepChoice { error, is_within: false, .. }) = chosen {
+        let message = format!(
+            "no step within reach errs by less than `sweep.tolerance`, as where equations jump or have \
+             kinks; RK4 is taken, whose step errs by {} of the attractor per unit of time",
+            two_digits(error)
+        );
+        doubts.push(Warning { about: "simulations", message });
+    }
     checker.regions(&study.network)?;
     checker.figure(&study.network, &study.modes)?;
     let claims = checker.claims(&study)?;
@@ -225,6 +241,7 @@ fn of(document: Document, (file, id): (&Path, &str), quick: bool, stages: &Stage
         preparation: prepare.into_iter().zip(preparation).collect(),
         matrix: coupling.matrix,
         node,
+        chosen,
         figure,
         claims,
         recorded,

@@ -146,7 +146,8 @@ pub struct SweepSpec {
     /// Replicas at every ε, from different initial states.
     #[serde(default = "defaults::four")]
     pub seeds: u64,
-    /// The integrator: `rk4` where it is left out; a map is iterated.
+    /// The integrator: `auto` where it and the step are left out, and `rk4` where it alone is; a map is
+    /// iterated.
     pub method: Option<MethodKind>,
     /// Step of the integrator, 0.01 where it is left out; of a map 1.
     pub step: Option<f64>,
@@ -156,9 +157,9 @@ pub struct SweepSpec {
     pub average: f64,
     /// Steps from one sample of the errors to the next, 10 where it is left out; of a map 1.
     pub stride: Option<u32>,
-    /// Relative and absolute tolerance of the adaptive methods.
-    #[serde(default = "defaults::billionth")]
-    pub tolerance: f64,
+    /// Relative and absolute tolerance of the adaptive methods, 1e-9 where it is left out; of `auto` the
+    /// error of a step per unit of time, relative to the size of the attractor, 1e-8.
+    pub tolerance: Option<f64>,
     /// Relative size of the random kicks, one every unit of time, that keep nodes from becoming equal
     /// to the last bit and then staying so for ever; 0 for none.
     #[serde(default = "defaults::rounding_kick")]
@@ -176,6 +177,19 @@ pub struct SweepSpec {
     /// States of nodes on the way, written to files of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub series: Option<SeriesSpec>,
+}
+
+impl SweepSpec {
+    /// Whether method and step are to be chosen: where neither is asked for. A step by itself is of RK4.
+    pub fn is_auto(&self) -> bool {
+        let is_open = self.method.is_none() && self.step.is_none();
+        is_open || self.method == Some(MethodKind::Auto)
+    }
+
+    /// The tolerance that is asked for, or that of the method.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance.unwrap_or(if self.is_auto() { 1e-8 } else { 1e-9 })
+    }
 }
 
 /// `[sweep.series]`: states of chosen nodes, to be plotted as they are.
@@ -204,6 +218,8 @@ pub struct SeriesSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MethodKind {
+    /// `rk8` or `rk4` and its step, whichever costs least within a tolerance.
+    Auto,
     /// Classical fourth-order Runge–Kutta with a fixed step.
     Rk4,
     /// Dormand–Prince of order 8 with a fixed step.

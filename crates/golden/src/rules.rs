@@ -93,8 +93,8 @@ impl Both<'_> {
             "simulations[].agreement.adjusted_rand_index" => {
                 of_seeds("adjusted_rand_index_standard_error", RAND_INDEX)
             }
-            // Few and short runs, for warnings only.
-            _ if kind.starts_with("simulations_step_effect") => Rule::Note,
+            // Few and short runs, for warnings only; and which step was chosen, which shows in its numbers.
+            _ if kind.starts_with("simulations_step") => Rule::Note,
             // Of an onset its mean is judged.
             _ if kind.starts_with("cascade[].simulated_onset.") => Rule::Note,
             _ if kind.starts_with("cascade[].simulated_end") => Rule::Note,

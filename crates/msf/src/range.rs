@@ -2,7 +2,7 @@
 //! sound, from where coupling hardly matters, by factors.
 
 use dynamics::lyapunov::Times;
-use dynamics::{LinearSteps, StepVerdict};
+use dynamics::{LinearSteps, Method, StepVerdict};
 
 use crate::{MsfError, Node};
 
@@ -34,7 +34,7 @@ pub(crate) fn furthest(node: &Node, times: &Times, seed: u64) -> Result<f64, Msf
     }
     let step = times.step;
     let steps = LinearSteps::along_orbit(node.dynamics.as_ref(), &node.coupling, step, seed)?;
-    let is_sound = |sigma: f64| steps.judge(sigma, step) == StepVerdict::Sound;
+    let is_sound = |sigma: f64| steps.judge(sigma, (Method::Rk4, step)) == StepVerdict::Sound;
     let mut sigma = FLOWS;
     while sigma > 1.0 {
         if is_sound(sigma) {
@@ -42,7 +42,7 @@ pub(crate) fn furthest(node: &Node, times: &Times, seed: u64) -> Result<f64, Msf
         }
         sigma /= 1.2;
     }
-    Ok(0.5 * steps.stable_up_to(FLOWS, step))
+    Ok(0.5 * steps.stable_up_to(FLOWS, (Method::Rk4, step)))
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! What an experiment will do and cost, in words: `eigensync check`.
 
-use dynamics::Method;
 use eigensync::Warning;
 use std::fmt::Write;
 
@@ -9,6 +8,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::orbits::Orbits;
+use crate::overview;
 use crate::trial::{self, Trial};
 use experiment::spec::{FigureKind, MatrixKind};
 use experiment::{Memory, Plan};
@@ -84,14 +84,17 @@ pub fn describe(plan: &Plan) -> String {
         line(
             "sweep",
             format!(
-                "{} values of epsilon, {} to {}; {} seeds, {} runs; {}, step {}, transient {}, average {}; \
+                "{} values of epsilon, {} to {}; {} seeds, {} runs; {}{}, step {}, transient {}, average {}; \
                  synchronised below {}",
                 epsilon.len(),
                 epsilon[0],
                 epsilon[epsilon.len() - 1],
                 sweep.seeds.len(),
                 epsilon.len() * sweep.seeds.len(),
-                in_words(sweep.method),
+                overview::method_name(sweep.method),
+                plan.chosen
+                    .map(|chosen| format!(" ({})", overview::error_of(&chosen)))
+                    .unwrap_or_default(),
                 schedule.step,
                 schedule.transient,
                 schedule.average,
@@ -141,14 +144,6 @@ fn figure(plan: &Plan) -> String {
         FigureKind::None => "none",
     };
     std::iter::once(kind.to_owned()).chain(drawing::foreseen(plan)).collect::<Vec<_>>().join("; ")
-}
-
-/// The integrator by the name that experiment files call it.
-fn in_words(method: Method) -> String {
-    serde_json::to_value(experiment::method(method))
-        .ok()
-        .and_then(|name| name.as_str().map(ToOwned::to_owned))
-        .unwrap_or_default()
 }
 
 /// Steps to be done, and the time they will take at the speed of a short trial on this machine.

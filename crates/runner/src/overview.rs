@@ -5,8 +5,9 @@ mod exactness;
 mod onsets;
 mod words;
 
+use dynamics::{Method, StepChoice};
 use eigensync::Findings;
-use eigensync::numbers::{four_digits, six_digits, two_digits, with_error};
+use eigensync::numbers::{four_digits, plain, six_digits, two_digits, with_error};
 use std::fmt::Write;
 
 use clustering::{ClusterKind, State, StateLabels};
@@ -36,6 +37,10 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
     line("lambda", lambda(findings));
     line("isolated", isolated(&findings.msf));
     line("stable for", stable(&findings.msf));
+    if let Some(chosen) = &plan.chosen {
+        let (method, step) = (method_name(chosen.method), step_in_words(chosen.step));
+        line("step", format!("{method} at {step}, {}", error_of(chosen)));
+    }
     line("verdict", findings.synchrony.verdict.clone());
     line("", String::new());
     text.push_str(&cascade(plan, findings));
@@ -45,6 +50,26 @@ pub fn of(plan: &Plan, findings: &Findings) -> String {
         text.push_str(&onsets);
     }
     text
+}
+
+/// That a method and its step were chosen, and what a step errs by.
+pub fn error_of(chosen: &StepChoice) -> String {
+    let error = two_digits(chosen.error);
+    format!("chosen: a step errs by {error} of the attractor per unit of time")
+}
+
+/// The integrator by the name that experiment files call it.
+pub fn method_name(method: Method) -> String {
+    serde_json::to_value(experiment::method(method))
+        .ok()
+        .and_then(|name| name.as_str().map(ToOwned::to_owned))
+        .unwrap_or_default()
+}
+
+/// As a fraction where it is one.
+fn step_in_words(step: f64) -> String {
+    let parts = (1.0 / step).round();
+    if step < 1.0 && 1.0 / parts == step { format!("1/{parts}") } else { plain(step) }
 }
 
 fn network(plan: &Plan) -> String {

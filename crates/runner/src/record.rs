@@ -23,7 +23,7 @@ pub use msf::{
     AttractorRecord, CriticalRecord, EndRecord, MsfRecord, ShiftRecord, ZeroRecord, msf_record,
 };
 pub use network::{NetworkRecord, StepRecord};
-pub use simulations::{AgreementRecord, RegionRecord, SimulationRecord};
+pub use simulations::{AgreementRecord, RegionRecord, SimulationRecord, StepChoiceRecord};
 pub use spectrum::{SpectrumRecord, VerifiedRecord};
 pub use states::{CoincidenceRecord, LabelRecord, RunsRecord, StateRecord};
 
@@ -64,6 +64,9 @@ pub struct Summary {
     pub cascade: Vec<StateRecord>,
     /// The sweep, one ε after another.
     pub simulations: Vec<SimulationRecord>,
+    /// Which step they have, where that was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulations_step: Option<StepChoiceRecord>,
     /// What the step of the integrator does to their errors.
     pub simulations_step_effect: Vec<StepEffect>,
     /// Claims of the file, judged.
@@ -97,6 +100,7 @@ pub fn summarise(
         global_synchrony: findings.synchrony.clone(),
         cascade: states::records(plan, findings),
         simulations: simulations::records(plan, findings),
+        simulations_step: simulations::step_choice(plan),
         simulations_step_effect: findings.step_effects.clone(),
         claims,
         warnings: findings.warnings.clone(),

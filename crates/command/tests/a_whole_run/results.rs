@@ -330,3 +330,22 @@ fn a_summary_holds_every_parameter_that_was_used_and_the_version_of_its_layout()
     let steps: Vec<_> = steps.iter().map(|step| step["step"].clone()).collect();
     assert_eq!(steps, [json!("largest_component"), json!({ "symmetrise": "mean" })]);
 }
+
+#[test]
+fn a_sweep_without_method_and_step_has_both_chosen_and_says_which_and_what_the_step_errs_by() {
+    let place = Workplace::new();
+    place.write("tiny.toml", tiny().without("sweep.step").0);
+    let checked = place.answer(&["check", "tiny.toml"]).with_status(0).stdout;
+    assert!(checked.contains("rk8 (chosen: a step errs by"), "{checked}");
+    place.answer(&["run", "tiny.toml"]).with_status(0);
+    let summary = place.json("results/tiny/summary.json");
+    let step = summary["simulations_step"]["step"].as_f64().unwrap();
+    let error = summary["simulations_step"]["error"].as_f64().unwrap();
+    assert_eq!(summary["simulations_step"]["method"], "rk8");
+    assert!(step > 0.01 && error <= 1e-8 && error > 0.0, "{step}: {error}");
+    assert_eq!(summary["parameters"]["sweep"]["method"], "rk8");
+    assert_eq!(summary["parameters"]["sweep"]["step"], json!(step));
+    assert_eq!(summary["parameters"]["sweep"]["tolerance"], json!(1e-8));
+    let text = std::fs::read_to_string(place.path("results/tiny/report.txt")).unwrap();
+    assert!(text.contains("a step errs by"), "{text}");
+}

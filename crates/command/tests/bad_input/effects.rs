@@ -42,6 +42,10 @@ fn keys_that_would_change_nothing_are_refused_with_the_reason() {
         &tiny().set("sweep.tolerance", "1e-6"),
         &["`sweep.tolerance` has no effect here", "rk4", "dopri5"],
     );
+    check_refused(
+        &tiny().set("sweep.method", "\"auto\""),
+        &["`sweep.step` has no effect here", "chooses it", "leave it out"],
+    );
     let thresholds =
         "distance_within = 1\ndistance_between = 1\nerror_within = 1\nerror_between = 1";
     check_refused(

@@ -117,7 +117,7 @@ fn names_that_are_not_known_are_answered_with_those_that_are() {
         check_refused(&tiny().set(key, &format!("\"{value}\"")), &[key, value, expected]);
     };
     unknown("coupling.matrix", "laplace", "did you mean `laplacian`?");
-    unknown("sweep.method", "euler", "known here: rk4, rk8, iterate, dopri5, dop853");
+    unknown("sweep.method", "euler", "known here: auto, rk4, rk8, iterate, dopri5, dop853");
     unknown("network.file.format", "excel", "known here: edge_list");
     unknown("claims.integers.of", "eigenvalue", "did you mean `eigenvalues`?");
     check_refused(

@@ -13,6 +13,7 @@
 //!
 //! Source: E. Hairer, S. P. Nørsett & G. Wanner, Solving Ordinary Differential Equations I (1993),
 //! Sec. II.5; coefficients as in their program DOP853.
+#![allow(clippy::excessive_precision, reason = "coefficients have the digits of the source")]
 
 use super::step::{Slots, Step};
 use crate::Scalar;

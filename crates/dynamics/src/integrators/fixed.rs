@@ -69,15 +69,44 @@ impl Fixed {
     /// |R(z)|, what a step of length h makes of the deviation 1 from a state of rest, where ẋ = μx and
     /// z = hμ: R is the polynomial of stability. Infinite where it is no number.
     pub(crate) fn growth(self, z: Complex<f64>) -> f64 {
-        let mut x = [Plain([0.0; MOST_SLOTS]); 2];
-        x[0].0[0] = 1.0;
-        for (stage, &point) in self.points().iter().enumerate() {
-            let [re, im] = x.map(|part| part.0[point]);
-            let f = [z.re * re - z.im * im, z.re * im + z.im * re];
-            self.at_stage(stage, Linear { x: &mut x, f });
-        }
-        let growth = x[0].0[0].hypot(x[1].0[0]);
+        let f = |x: &[f64], f: &mut [f64]| {
+            f[0] = z.re * x[0] - z.im * x[1];
+            f[1] = z.re * x[1] + z.im * x[0];
+        };
+        let mut x = [1.0, 0.0];
+        advance(self, f, &mut x, 1.0);
+        let growth = x[0].hypot(x[1]);
         if growth.is_finite() { growth } else { f64::INFINITY }
+    }
+}
+
+/// Takes some numbers a step forward, f(x) being their right-hand side.
+pub(crate) fn advance(method: Fixed, f: impl Fn(&[f64], &mut [f64]), x: &mut [f64], h: f64) {
+    let mut slots = vec![Plain([0.0; MOST_SLOTS]); x.len()];
+    let (mut at, mut slope) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    slots.iter_mut().zip(&*x).for_each(|(slots, &x)| slots.0[0] = x);
+    for (stage, &point) in method.points().iter().enumerate() {
+        at.iter_mut().zip(&slots).for_each(|(at, slots)| *at = slots.0[point]);
+        f(&at, &mut slope);
+        method.at_stage(stage, Each { slots: &mut slots, slope: &slope, h });
+    }
+    x.iter_mut().zip(&slots).for_each(|(x, slots)| *x = slots.0[0]);
+}
+
+/// A stage of some numbers.
+struct Each<'a> {
+    slots: &'a mut [Plain],
+    slope: &'a [f64],
+    h: f64,
+}
+
+impl AtStage for Each<'_> {
+    type Output = ();
+
+    fn at<M: Step, const STAGE: usize>(self) {
+        for (slots, &f) in self.slots.iter_mut().zip(self.slope) {
+            M::put::<STAGE, _>(slots, f, self.h);
+        }
     }
 }
 
@@ -92,22 +121,6 @@ impl Slots<f64> for Plain {
 
     fn set(&mut self, slot: usize, number: f64) {
         self.0[slot] = number;
-    }
-}
-
-/// A stage of ẋ = zx, real and imaginary parts.
-struct Linear<'a> {
-    x: &'a mut [Plain; 2],
-    f: [f64; 2],
-}
-
-impl AtStage for Linear<'_> {
-    type Output = ();
-
-    fn at<M: Step, const STAGE: usize>(self) {
-        for (x, f) in self.x.iter_mut().zip(self.f) {
-            M::put::<STAGE, _>(x, f, 1.0);
-        }
     }
 }
 

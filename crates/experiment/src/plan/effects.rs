@@ -32,15 +32,21 @@ impl Checker<'_> {
         self.of_figure()?;
         self.of_file()?;
         if let Some(sweep) = &self.experiment.sweep
+            && !sweep.is_auto()
             && !matches!(sweep.method, Some(MethodKind::Dopri5 | MethodKind::Dop853))
         {
-            let reason = "the steps of rk4 and rk8 are all `sweep.step` long; the adaptive methods, dopri5 \
+            let reason = "the steps of rk4 and rk8 are all `sweep.step` long; auto and the adaptive methods, dopri5 \
                           and dop853, have a tolerance";
             self.without_effect("sweep", "tolerance", reason)?;
         }
         if self.experiment.msf.method == MsfMethod::Rk4 {
             let reason = "the steps of rk4 are all `msf.step` long; Taylor series have a tolerance";
             self.without_effect("msf", "tolerance", reason)?;
+        }
+        if let Some(sweep) = &self.experiment.sweep
+            && sweep.method == Some(MethodKind::Auto)
+        {
+            self.without_effect("sweep", "step", "`method = \"auto\"` chooses it")?;
         }
         if self.experiment.sweep.is_none() && self.experiment.regions.is_some() {
             let reason = "regions are compared at the couplings of a [sweep], and there is none";

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use eigensync::Study;
 
-use crate::spec::{Experiment, MethodKind, NetworkSpec};
+use crate::spec::{Experiment, MethodKind, NetworkSpec, SweepSpec};
 
 /// The resolved experiment; keys that have no effect in it are null.
 pub fn of(experiment: &Experiment, study: &Study) -> Value {
@@ -50,14 +50,16 @@ pub fn of(experiment: &Experiment, study: &Study) -> Value {
         set("/sweep/step", json!(sweep.schedule.step));
         set("/sweep/stride", json!(sweep.schedule.stride));
         set("/sweep/pairs", json!(sweep.observables.pairs));
-        if !matches!(sweep.method, Method::Adaptive(_)) {
-            set("/sweep/tolerance", Value::Null);
-        }
+        let spec = experiment.sweep.as_ref();
+        let has_tolerance = matches!(sweep.method, Method::Adaptive(_))
+            || (sweep.method != Method::Iterate && spec.is_some_and(SweepSpec::is_auto));
+        let tolerance = spec.filter(|_| has_tolerance).map(SweepSpec::tolerance);
+        set("/sweep/tolerance", json!(tolerance));
     }
     parameters
 }
 
-/// The integrator by the name that experiment files call it.
+/// The integrator by the name that experiment files call it, `auto` by what it has chosen.
 pub fn method(method: Method) -> MethodKind {
     match method {
         Method::Rk4 => MethodKind::Rk4,

@@ -78,7 +78,7 @@ impl Checker<'_> {
 
     pub(super) fn sweep_ranges(&self, spec: &SweepSpec, step: f64) -> Result<()> {
         self.within("sweep.step", step, STEP)?;
-        self.within("sweep.tolerance", spec.tolerance, TOLERANCE)?;
+        self.within("sweep.tolerance", spec.tolerance(), TOLERANCE)?;
         if spec.kick != 0.0 {
             self.within("sweep.kick", spec.kick, KICK)?;
         }

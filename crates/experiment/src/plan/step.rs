@@ -6,6 +6,8 @@ use dynamics::{LinearSteps, Method, StepVerdict};
 use eigensync::numbers::{four_digits, plain, two_digits};
 use eigensync::{Study, Sweep, Warning};
 
+use graph::CouplingMatrix;
+
 use super::checker::Checker;
 use user::Result;
 
@@ -58,9 +60,8 @@ impl Checker<'_> {
         let step = sweep.schedule.step;
         let Some(steps) = self.linear_steps(study, step) else { return Ok(None) };
         let epsilon = sweep.epsilon[sweep.epsilon.len() - 1];
-        let diagonal = study.matrix.matrix().diag_iter().flatten();
-        let bound = 2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()));
-        // By Gershgorin |λ_N| is no more, and need not be known where the step is sound even so.
+        let bound = fastest_bound(&study.matrix);
+        // |λ_N| need not be known where the step is sound even so.
         if steps.judge(epsilon * bound, (sweep.method, step)) == StepVerdict::Sound {
             return Ok(None);
         }
@@ -124,6 +125,12 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// What |λ_N| does not exceed, by Gershgorin.
+pub(super) fn fastest_bound(matrix: &CouplingMatrix) -> f64 {
+    let diagonal = matrix.matrix().diag_iter().flatten();
+    2.0 * diagonal.fold(0.0f64, |largest, w| largest.max(w.abs()))
 }
 
 /// Two significant digits, and not more than the number.

@@ -1,27 +1,39 @@
 //! The sweep of a plan: couplings, seeds, times, integrator, and what is observed.
 
-use dynamics::{Adaptive, AdaptiveOrder, Method, NodeDynamics, Observables, Schedule};
+use dynamics::{
+    Adaptive, AdaptiveOrder, Method, NodeDynamics, Observables, Schedule, StepChoice, choose_step,
+};
 use eigensync::numbers::plain;
 use eigensync::{ALL_PAIRS, Sweep};
-use graph::{Names, Network};
+use graph::{CouplingMatrix, Names, Network};
+use msf::Node;
 use user::Result;
 
 use super::checker::Checker;
+use super::step::fastest_bound;
 use crate::spec::{MethodKind, SweepSpec};
 
 /// Step of RK4 where none is asked for.
 const STEP: f64 = 0.01;
+/// Time between samples where the step is chosen, in whole steps.
+const SAMPLING: f64 = 0.1;
 
 impl Checker<'_> {
     pub(super) fn sweep(
         &self,
         spec: &SweepSpec,
-        network: &Network,
-        dynamics: &dyn NodeDynamics,
-    ) -> Result<Sweep> {
+        (network, matrix): (&Network, &CouplingMatrix),
+        node: &Node,
+    ) -> Result<(Sweep, Option<StepChoice>)> {
+        let dynamics = node.dynamics.as_ref();
         let epsilon = self.grid("sweep.epsilon", &spec.epsilon, 1)?;
-        let method = self.method(spec, dynamics)?;
-        let schedule = self.schedule(spec, epsilon[0], dynamics)?;
+        let fastest = epsilon[epsilon.len() - 1] * fastest_bound(matrix);
+        let chosen = self.chosen(spec, node, fastest)?;
+        let method = match &chosen {
+            Some(chosen) => chosen.method,
+            None => self.method(spec, dynamics)?,
+        };
+        let schedule = self.schedule(spec, (epsilon[0], chosen.as_ref()), dynamics)?;
         let pairs = network.n_nodes() <= ALL_PAIRS;
         self.affordable(spec.seeds, epsilon.len(), &schedule, (network.n_nodes(), pairs))?;
         let component = match &spec.component {
@@ -45,7 +57,7 @@ impl Checker<'_> {
         self.bound("sweep.synchronised_below", spec.synchronised_below, pairs)?;
         self.sweep_ranges(spec, schedule.step)?;
         let first = self.experiment.seed;
-        Ok(Sweep {
+        let sweep = Sweep {
             epsilon,
             seeds: (0..spec.seeds).map(|k| first.wrapping_add(k)).collect(),
             method,
@@ -58,22 +70,42 @@ impl Checker<'_> {
                 .transpose()?,
             synchronised_below: spec.synchronised_below,
             kick: spec.kick,
-        })
+        };
+        Ok((sweep, chosen))
+    }
+
+    /// What `method = "auto"` comes to; none for another method, for a map, and where the isolated orbit
+    /// escapes, of which the run will tell.
+    fn chosen(&self, spec: &SweepSpec, node: &Node, fastest: f64) -> Result<Option<StepChoice>> {
+        let Node { dynamics, coupling } = node;
+        if !spec.is_auto() || dynamics.is_map() {
+            return Ok(None);
+        }
+        self.positive("sweep.tolerance", spec.tolerance())?;
+        let (of, seed) = ((dynamics.as_ref(), coupling), self.experiment.seed);
+        let choose = || choose_step(of, fastest, spec.tolerance(), seed).ok();
+        Ok(self.stages.unmeasured("choice of the step", choose))
     }
 
     fn schedule(
         &self,
         spec: &SweepSpec,
-        least_epsilon: f64,
+        (least_epsilon, chosen): (f64, Option<&StepChoice>),
         dynamics: &dyn NodeDynamics,
     ) -> Result<Schedule> {
         self.not_negative("sweep.epsilon", least_epsilon)?;
-        let step = self.step("sweep.step", spec.step, dynamics)?;
-        let stride = spec.stride.unwrap_or(if dynamics.is_map() { 1 } else { 10 });
+        let asked = chosen.map_or(spec.step, |chosen| Some(chosen.step));
+        let step = self.step("sweep.step", asked, dynamics)?;
+        let usual = match (dynamics.is_map(), chosen) {
+            (true, _) => 1,
+            (false, None) => 10,
+            (false, Some(chosen)) => (SAMPLING / chosen.step).round().max(1.0) as u32,
+        };
+        let stride = spec.stride.unwrap_or(usual);
         self.not_negative("sweep.kick", spec.kick)?;
         self.not_negative("sweep.transient", spec.transient)?;
         self.positive("sweep.average", spec.average)?;
-        self.positive("sweep.tolerance", spec.tolerance)?;
+        self.positive("sweep.tolerance", spec.tolerance())?;
         self.positive("sweep.stride", f64::from(stride))?;
         self.positive("sweep.seeds", spec.seeds as f64)?;
         let schedule = Schedule {
@@ -109,13 +141,14 @@ impl Checker<'_> {
         let adaptive = |order| {
             Method::Adaptive(Adaptive {
                 order,
-                relative_tolerance: spec.tolerance,
-                absolute_tolerance: spec.tolerance,
+                relative_tolerance: spec.tolerance(),
+                absolute_tolerance: spec.tolerance(),
             })
         };
         let method = match spec.method {
-            None if is_map => Method::Iterate,
-            None | Some(MethodKind::Rk4) => Method::Rk4,
+            None | Some(MethodKind::Auto) if is_map => Method::Iterate,
+            // Auto comes here where orbits escape, whatever the step.
+            None | Some(MethodKind::Auto | MethodKind::Rk4) => Method::Rk4,
             Some(MethodKind::Rk8) => Method::Dop853,
             Some(MethodKind::Iterate) => Method::Iterate,
             Some(MethodKind::Dopri5) => adaptive(AdaptiveOrder::Five),

@@ -20,10 +20,6 @@ pub(crate) fn millionth() -> f64 {
     1e-6
 }
 
-pub(super) fn billionth() -> f64 {
-    1e-9
-}
-
 pub(super) fn rounding_kick() -> f64 {
     dynamics::ROUNDING_KICK
 }

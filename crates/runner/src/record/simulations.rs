@@ -1,8 +1,9 @@
 //! The sweep in a summary: errors, clusters, and agreement with the prediction at each ε.
 
-use dynamics::{Outcome, Run};
+use dynamics::{Outcome, Run, StepChoice};
 use eigensync::{Agreement, Findings, OverSeeds, Predicted};
 use experiment::Plan;
+use experiment::spec::MethodKind;
 use serde::Serialize;
 
 use super::names::named;
@@ -124,4 +125,20 @@ fn agreement_record(plan: &Plan, agreement: &Agreement) -> AgreementRecord {
             adjusted_rand_index: regions.agreement.adjusted_rand_index,
         }),
     }
+}
+
+/// What `method = "auto"` has chosen, and how well that does.
+#[derive(Serialize)]
+pub struct StepChoiceRecord {
+    /// The integrator, by the name that experiment files call it.
+    pub method: MethodKind,
+    /// Its step.
+    pub step: f64,
+    /// What a step errs by per unit of time, relative to the size of the attractor, as it was measured.
+    pub error: f64,
+}
+
+pub(super) fn step_choice(plan: &Plan) -> Option<StepChoiceRecord> {
+    let StepChoice { method, step, error, .. } = plan.chosen?;
+    Some(StepChoiceRecord { method: experiment::method(method), step, error })
 }
