@@ -30,6 +30,9 @@ const AT_HAND: f64 = 0.02;
 /// A cycle is looked for within a return after so many turns, each of which comes back within this distance.
 const MOST_TURNS: u32 = 8;
 const NEARLY_BACK: f64 = 0.1;
+/// States of a turn that are held against those of the next one, and how many must be alike.
+const STATES_OF_TURN: usize = 256;
+const ALIKE: usize = 240;
 /// Returns that are tried in a window.
 const MOST_RETURNS: usize = 3;
 /// The multiplier along the flow is 1 within this, the others are inside the unit circle by as much.
@@ -237,8 +240,20 @@ impl Window {
                 cubic([of(0), of(1), of(2), of(3)], share)
             };
             let crossed: Vec<f64> = (0..self.n).map(at).collect();
-            (apart(&crossed, start, scale) <= COMES_BACK).then_some(step as f64 + share)
+            let comes_back = apart(&crossed, start, scale) <= COMES_BACK;
+            (comes_back && self.repeats(step, scale)).then_some(step as f64 + share)
         })
+    }
+
+    /// Whether what comes after so many steps is about what there was before them, but for a few states, as of
+    /// a jump that is met a step later: chaos comes back by chance, and goes another way then.
+    fn repeats(&self, n_steps: usize, scale: &[f64]) -> bool {
+        let is_alike = |k: &usize| {
+            let step = k * n_steps / STATES_OF_TURN;
+            apart(self.at(step), self.at(step + n_steps), scale) <= NEARLY_BACK
+        };
+        let is_seen = 2 * n_steps < self.len();
+        is_seen && (0..STATES_OF_TURN).filter(is_alike).count() >= ALIKE
     }
 }
 
