@@ -30,7 +30,7 @@ def main():
     arguments.add_argument("--core", default="0", help="the processor core that all run on")
     arguments.add_argument("--seconds", default="0.3", help="least time of a measurement")
     arguments.add_argument("--repeats", default="5", help="measurements, of which the best counts")
-    arguments.add_argument("--only", default="", help="only peers whose file name holds this text")
+    arguments.add_argument("--only", default="", help="only peers whose file names hold such a text, a,b")
     arguments.add_argument("--longest", default="30", help="seconds allowed on a large network")
     arguments.add_argument("--no-simulation", action="store_true", help="only large networks")
     arguments.add_argument("--leading-modes", nargs="*", type=Path, default=[], help="networks")

@@ -7,9 +7,10 @@
 //! - `simulation.csv`: node-steps a second of eigensync and, with `--peers`, of the peers
 //! - `growth.csv`: exponents of t ∝ nᵖ where an operation was timed from small to large
 //! - `leading_modes.csv`, `clusters.csv`: seconds of eigensync and, with `--peers`, of the peers
-//! - `peers.csv`, `notes.txt`: errors of the peers, and what could not be measured and why
+//! - `peers.csv`, `errors.csv`, `notes.txt`: errors of the peers and of eigensync's methods, and what could not be measured and why
 
 mod criterion;
+mod equal_error;
 mod growth;
 mod large;
 mod machine;
@@ -33,6 +34,9 @@ pub struct Args {
     /// Also measure the tools that people use today (minutes; needs Python and a C++ compiler)
     #[arg(long)]
     peers: bool,
+    /// Only peers whose file name holds one of these texts, such as `heyoka`
+    #[arg(long, value_name = "TEXT", requires = "peers")]
+    peer: Vec<String>,
     /// The largest network that peers find modes and clusters of, in nodes
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     largest: usize,
@@ -70,6 +74,9 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     if let Some(filter) = &args.filter {
         notes.add(&format!("only benchmarks whose name holds `{filter}` were run"))?;
     }
+    if !args.peer.is_empty() {
+        notes.add(&format!("of the peers only {} were measured", args.peer.join(", ")))?;
+    }
     if args.quick {
         notes.add("measured with --quick: these are no measurements to cite")?;
     }
@@ -104,6 +111,7 @@ fn measure(args: &Args, runs: &Path) -> Result<u8, String> {
     let place = keep(&unfinished, runs, &machine.folder_name())?;
     if !rows.is_empty() {
         println!("{}", table::markdown(&rows));
+        println!("{}", table::at_equal_error(&rows, &place)?.unwrap_or_default());
     }
     println!("{}", growth::markdown(&measured).unwrap_or_default());
     println!("{}", table::modes_and_clusters(&place)?.unwrap_or_default());
@@ -209,6 +217,9 @@ fn run_peers(
             args.largest,
             work,
         )?);
+    }
+    if !args.peer.is_empty() {
+        command.arg("--only").arg(args.peer.join(","));
     }
     if args.quick {
         command.args(["--seconds", "0.02", "--repeats", "1", "--longest", "20"]);

@@ -28,6 +28,14 @@ pub const PEAK: &str = "peak/";
 
 /// Benchmarks of simulations.
 pub const SIMULATE: &str = "simulate/";
+/// Those of them by DOP853.
+const OF_DOP853: &str = "simulate/dop853/";
+
+/// The step of RK4, in which model time is counted.
+const STEP: f64 = 0.01;
+/// Steps of DOP853 in the benchmarks of each fixture, and in what words they stand in the table.
+const DOP853: [(&str, f64); 2] = [("communities90", 0.125), ("cortex989", 0.1)];
+const IN_STEPS: &str = " in steps of ";
 
 /// A line of `simulation.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,9 +50,21 @@ pub struct Row {
 }
 
 impl Row {
-    /// Whether the method chooses its own step, so that the steps counted are not those it took.
+    /// Whether the steps counted, of 0.01, are not those that the method took.
     pub fn is_adaptive(&self) -> bool {
-        self.implementation.contains(" at tolerance ")
+        self.implementation.contains(" at tolerance ") || self.implementation.contains(IN_STEPS)
+    }
+
+    /// Of a row of eigensync, its method.
+    pub fn method(&self) -> &str {
+        self.implementation.rsplit_once(" of ").map_or("rk4", |(_, method)| method)
+    }
+
+    /// Of a row of eigensync, its step.
+    pub fn step(&self) -> f64 {
+        let named = self.implementation.split_once(IN_STEPS);
+        let step = named.and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
+        step.unwrap_or(STEP)
     }
 }
 
@@ -70,14 +90,19 @@ pub fn rows(
         .try_fold(0.0, |best, rate| Ok::<_, String>(f64::max(best, rate?)))?;
     let mut rows = Vec::new();
     for benchmark in measured {
-        let Some((fixture, lanes)) = fixture_and_lanes(&benchmark.id) else { continue };
-        rows.push(Row {
-            fixture: fixture.to_owned(),
-            implementation: ours.to_owned(),
-            lanes,
-            node_steps_per_s: benchmark.best_rate()?.round(),
-            share_of_peak: None,
-        });
+        let by_dop853 = benchmark.id.strip_prefix(OF_DOP853);
+        let id = by_dop853.or_else(|| benchmark.id.strip_prefix(SIMULATE));
+        let Some((fixture, lanes)) = id.and_then(fixture_and_lanes) else { continue };
+        let (mut implementation, mut rate) = (ours.to_owned(), benchmark.best_rate()?);
+        if by_dop853.is_some() {
+            let Some((_, step)) = DOP853.iter().find(|(name, _)| *name == fixture) else {
+                continue;
+            };
+            write!(implementation, "{IN_STEPS}{step} of dop853").expect("a string can always grow");
+            rate *= step / STEP;
+        }
+        let (fixture, node_steps_per_s) = (fixture.to_owned(), rate.round());
+        rows.push(Row { fixture, implementation, lanes, node_steps_per_s, share_of_peak: None });
     }
     for peer in csv::Reader::from_reader(peers.unwrap_or_default().as_bytes()).into_deserialize() {
         let Peer { fixture, implementation, lanes, node_steps_per_s } =
@@ -97,9 +122,9 @@ pub fn rows(
     Ok(rows)
 }
 
-/// `simulate/FIXTURE/LANES` taken apart; nothing else is a simulation.
+/// `FIXTURE/LANES` taken apart; nothing else is a simulation.
 fn fixture_and_lanes(id: &str) -> Option<(&str, u32)> {
-    let (fixture, lanes) = id.strip_prefix(SIMULATE)?.split_once('/')?;
+    let (fixture, lanes) = id.split_once('/')?;
     Some((fixture, lanes.parse().ok()?))
 }
 

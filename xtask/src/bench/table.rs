@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::simulation::{Row, from_csv};
-use super::{criterion, growth, large, read, read_if_there, write};
+use super::{criterion, equal_error, growth, large, read, read_if_there, write};
 use crate::root;
 
 /// Where the table of simulations stands on the page.
@@ -47,7 +47,11 @@ pub fn update(runs: &Path, run: Option<&Path>) -> Result<u8, String> {
     };
     let mut page = read(&path)?;
     if !rows.is_empty() {
-        page = replace(&page, SIMULATION, &with_notes(markdown(&rows)))?;
+        let mut tables = markdown(&rows);
+        if let Some(table) = at_equal_error(&rows, &run)? {
+            write!(tables, "\n{table}").expect(GROWS);
+        }
+        page = replace(&page, SIMULATION, &with_notes(tables))?;
     }
     if let Some(table) = growth::markdown(&benchmarks) {
         page = replace(&page, GROWTH, &with_notes(table))?;
@@ -58,6 +62,15 @@ pub fn update(runs: &Path, run: Option<&Path>) -> Result<u8, String> {
     write(&path, &page)?;
     println!("{}: the tables of {}", path.display(), run.display());
     Ok(0)
+}
+
+/// The table of peers at equal error, none where the run has measured none.
+pub fn at_equal_error(rows: &[Row], run: &Path) -> Result<Option<String>, String> {
+    let files = ["peers.csv", "errors.csv"].map(|name| read_if_there(&run.join(name)));
+    let [Some(peers), Some(errors)] = [files[0].clone()?, files[1].clone()?] else {
+        return Ok(None);
+    };
+    equal_error::markdown(rows, &peers, &errors)
 }
 
 /// Tables of the operations on large networks, none where the run has measured none.
