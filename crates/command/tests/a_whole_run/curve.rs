@@ -23,7 +23,7 @@ fn a_curve_without_a_network_tells_its_zeros_and_what_was_looked_at() {
         ": chaotic",
         "stable for   sigma > 8.",
         "where Λ falls",
-        "looked at    13 values of sigma, 0 to 12",
+        "looked at    33 sigma from 0 to 12, where a window narrower than",
         "results in results/lorenz-x-y, in ",
     ] {
         assert!(answer.stdout.contains(expected), "{expected} in:\n{}", answer.stdout);
