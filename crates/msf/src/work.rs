@@ -280,11 +280,13 @@ impl Work<'_> {
         sigma: f64,
         seeds: &mut Seeds,
     ) -> Result<MasterStability, MsfError> {
-        let seeds: Vec<u64> = seeds.orbits().collect();
+        // Those of Λ(0) among them: an attractor that few orbits settle on need not come again with others.
+        let mut first = Seeds::new(self.request.seed);
+        let seeds: Vec<u64> = first.orbits().chain(seeds.orbits()).collect();
         let probes: Vec<_> = seeds.iter().map(|&seed| Tangent { sigma, seed }).collect();
         let exponents = self.exponents(&probes, Step::Asked)?;
         let groups = attractors::groups(&exponents, self.floor());
-        // Orbits that are all alike now were not for good, or a rare attractor does not come again.
+        // Orbits that are all alike now were not for good.
         if groups.len() < 2 {
             return Ok(mixed);
         }
