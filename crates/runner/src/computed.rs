@@ -146,23 +146,16 @@ pub fn curve_key(journal: &Journal, node: &Node, request: &msf::Request) -> Key 
     journal.key(Kind::Curve, &(node, request))
 }
 
-/// Times of a first look at Λ, which finds how far a curve must reach; of a flow with a step, or of a map.
-pub fn first_look(is_map: bool, step: f64) -> Times {
-    match is_map {
-        true => Times {
-            integrator: Integrator::Rk4,
-            step: 1.0,
-            transient: 1000.0,
-            average: 20_000.0,
-            renormalise: 1.0,
-        },
-        false => Times {
-            integrator: Integrator::Auto { tolerance: 1e-6 },
-            step,
-            transient: 500.0,
-            average: 4000.0,
-            renormalise: 0.5,
-        },
+/// Times of a first look at Λ, which finds how far a curve must reach: as long as a look needs, and at most ten
+/// times as long as those that are asked for.
+pub fn first_look(is_map: bool, asked: &Times) -> Times {
+    const HURRY: f64 = 10.0;
+    let (transient, average) = if is_map { (1000.0, 20_000.0) } else { (500.0, 4000.0) };
+    Times {
+        integrator: Integrator::Auto { tolerance: 1e-6 },
+        transient: f64::min(transient, HURRY * asked.transient),
+        average: f64::min(average, HURRY * asked.average),
+        ..*asked
     }
 }
 

@@ -54,7 +54,7 @@ fn reaches(plan: &AtlasPlan, journal: &Journal, stages: &Stages) -> Result<Vec<f
     let looks: Vec<_> = plan
         .pairs()
         .map(|(system, pair)| {
-            let times = first_look(pair.node.dynamics().is_map(), system.times().step);
+            let times = first_look(pair.node.dynamics().is_map(), system.times());
             let key = look_key(journal, &pair.node, &times);
             (system, pair, times, key, journal.take::<f64>(Kind::Look, &key))
         })
