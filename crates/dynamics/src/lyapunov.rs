@@ -4,7 +4,7 @@
 //! its orbit `ṡ = F(s)`, or iterated with that of a map, as one system on dual numbers: s is the value, δy the tangent. At σ = 0 its
 //! exponent is the largest Lyapunov exponent of the isolated oscillator.
 //!
-//! The integrator is RK4 with a fixed step, or [`taylor`]; see [`Integrator`].
+//! The integrator is RK4 with a fixed step, or Taylor series; see [`Integrator`].
 //!
 //! Method: G. Benettin et al., Meccanica 15, 9 (1980): tangents are renormalised at intervals and
 //! the logarithms of their growth averaged.
