@@ -165,6 +165,10 @@ fn msf(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| master_exponents(&model(), &x_into_x(), &times, &tangents, QUIET));
         });
+        let by_series = Times { integrator: Integrator::Taylor { tolerance: 1e-6 }, ..times };
+        group.bench_function(format!("{name}-series"), |bencher| {
+            bencher.iter(|| master_exponents(&model(), &x_into_x(), &by_series, &tangents, QUIET));
+        });
         group.bench_function(format!("{name}-text"), |bencher| {
             bencher.iter(|| master_exponents(&text(), &x_into_x(), &times, &tangents, QUIET));
         });
