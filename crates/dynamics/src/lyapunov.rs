@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 pub use growth::{Integrator, Tangent, Tangents, Times};
 use growth::{Plan, estimates};
-use taylor::{Equations, Followed};
+use taylor::Followed;
 use tiles::Tiles;
 
 use crate::error::check_step;
@@ -72,8 +72,7 @@ pub fn master_exponents_with(
     check_step(dynamics.is_map(), times.step)?;
     let plan = Plan::new(times)?;
     let escape_radius = dynamics.escape_radius();
-    let equations = Equations::of(dynamics, coupling);
-    if let Some(followed) = followed(dynamics, equations.as_ref(), times) {
+    if let Some(followed) = followed(dynamics, coupling, times) {
         return in_batches(tangents, &followed.batches(tangents), |tangents| {
             let tangents = Tangents { coupling, plan: &plan, tangents, escape_radius, progress };
             followed.exponents(instruction_set, &tangents)
@@ -108,22 +107,20 @@ pub fn master_exponents_with(
 /// The series by which a master equation is followed, where it is.
 fn followed<'a>(
     dynamics: &'a dyn NodeDynamics,
-    equations: Option<&'a Equations>,
+    coupling: &Coupling,
     times: &Times,
 ) -> Option<Followed<'a>> {
     match times.integrator {
         Integrator::Rk4 => None,
-        Integrator::Taylor { tolerance } => Some(Followed::new(dynamics, equations?, tolerance)),
-        Integrator::Auto { tolerance } => {
-            let followed = Followed::new(dynamics, equations?, tolerance);
-            (followed.mean_step() >= LONG * times.step).then_some(followed)
-        }
+        Integrator::Taylor { tolerance } => Followed::new(dynamics, coupling, tolerance),
+        Integrator::Auto { tolerance } => Followed::new(dynamics, coupling, tolerance)
+            .filter(|followed| followed.mean_step() >= LONG * times.step),
     }
 }
 
 /// Whether exponents of these equations come from series at these times, rather than from RK4.
 pub fn takes_series(dynamics: &dyn NodeDynamics, coupling: &Coupling, times: &Times) -> bool {
-    followed(dynamics, Equations::of(dynamics, coupling).as_ref(), times).is_some()
+    followed(dynamics, coupling, times).is_some()
 }
 
 /// Exponents batch by batch on the pool of threads, in the order of tangents.

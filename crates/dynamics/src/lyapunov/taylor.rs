@@ -39,7 +39,7 @@ const SHARED: usize = 32;
 const BETWEEN: usize = 8;
 
 /// A master equation that has series.
-pub(super) struct Equations {
+struct Equations {
     programs: Programs,
     jacobian: Jacobian,
     /// The size of B.
@@ -48,7 +48,7 @@ pub(super) struct Equations {
 
 impl Equations {
     /// None where the equations are not known as a program, or have pieces.
-    pub(super) fn of(dynamics: &dyn NodeDynamics, coupling: &Coupling) -> Option<Self> {
+    fn of(dynamics: &dyn NodeDynamics, coupling: &Coupling) -> Option<Self> {
         if dynamics.is_map() {
             return None;
         }
@@ -72,17 +72,19 @@ impl Equations {
 /// A master equation with the rule by which its steps are chosen.
 pub(super) struct Followed<'a> {
     dynamics: &'a dyn NodeDynamics,
-    equations: &'a Equations,
+    equations: Equations,
     levels: Levels,
     tolerance: f64,
 }
 
 impl<'a> Followed<'a> {
+    /// None where there are no series.
     pub(super) fn new(
         dynamics: &'a dyn NodeDynamics,
-        equations: &'a Equations,
+        coupling: &Coupling,
         tolerance: f64,
-    ) -> Self {
+    ) -> Option<Self> {
+        let equations = Equations::of(dynamics, coupling)?;
         let middle: Vec<f64> =
             dynamics.start().iter().map(|[from, to]| 0.5 * (from + to)).collect();
         let mut orbit = Orbit::<1>::new(&equations.programs, 1);
@@ -90,7 +92,7 @@ impl<'a> Followed<'a> {
         orbit.expand(&equations.programs, 1);
         let [[of_flow], _] = equations.jacobian.sizes(&orbit);
         let levels = Levels::new(of_flow, equations.weight);
-        Self { dynamics, equations, levels, tolerance }
+        Some(Self { dynamics, equations, levels, tolerance })
     }
 
     /// The mean step of an orbit without coupling, over some steps behind its first ones.

@@ -53,8 +53,8 @@ fn by_rk4(
 /// The largest errors after about a unit of time from some states of an orbit, relative to the largest
 /// component: of the orbit and of the growth of a tangent.
 fn errors(model: &Model, coupling: &Coupling, sigma: f64, tolerance: f64) -> [f64; 2] {
-    let equations = Equations::of(model, coupling).unwrap();
-    let followed = Followed::new(model, &equations, tolerance);
+    let followed = Followed::new(model, coupling, tolerance).unwrap();
+    let equations = &followed.equations;
     let steps = Steps::new(tolerance, model.start(), f64::INFINITY);
     let mut orbit = Orbit::<1>::new(&equations.programs, steps.order());
     orbit.begin(0, &initial_states(model.start(), 1, 5));
